@@ -46,6 +46,9 @@ class YamlDocument {
   /// Removes a top-level key and gives its text; nothing where it is absent.
   std::optional<std::string> Take(const std::string& key);
 
+  /// The file's name, for messages.
+  const std::string& name() const;
+
   struct Node;
   const Node& node() const { return *node_; }
 
@@ -123,7 +126,7 @@ class FieldReader {
   std::vector<std::string> Keys() const;
   /// Throws InputError at the first key that was never asked for, with the nearest one that was.
   void Finish();
-  /// Throws InputError at the line of `key`.
+  /// Throws InputError at the line of `key`, or of the file where the key is absent.
   [[noreturn]] void Fail(const char* key, const std::string& problem) const;
 
  private:
@@ -150,14 +153,15 @@ class FieldWriter {
   void operator()(const char* key, int64_t value);
   void operator()(const char* key, uint64_t value);
   void operator()(const char* key, bool value);
-  void operator()(const char* key, const std::string& value);
-  void operator()(const char* key, const std::vector<double>& value);
-  void operator()(const char* key, const std::vector<std::string>& value);
-  void operator()(const char* key, const SE3& value);
+  void operator()(const char* key, std::string& value);
+  void operator()(const char* key, std::vector<double>& value);
+  void operator()(const char* key, std::vector<std::string>& value);
+  void operator()(const char* key, SE3& value);
 
   template <int kSize>
   void operator()(const char* key, Eigen::Matrix<double, kSize, 1>& value) {
-    (*this)(key, std::vector<double>(value.data(), value.data() + kSize));
+    std::vector<double> values(value.data(), value.data() + kSize);
+    (*this)(key, values);
   }
 
   template <typename Struct, typename = std::enable_if_t<std::is_class_v<Struct>>>

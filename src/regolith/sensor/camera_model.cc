@@ -200,12 +200,14 @@ void CheckIntrinsics(const CameraIntrinsics& intrinsics) {
   }
 }
 
-// Every pixel of the border and the centre lines needs a bearing.
+// Every pixel needs a bearing; of a fisheye the middle half, since its corners may lie outside the
+// image circle.
 void CheckCoversImage(const CameraModel& model) {
   const CameraIntrinsics& intrinsics = model.intrinsics();
+  const int margin = intrinsics.model == CameraModelType::kPinhole ? 0 : 2;
   constexpr int kSteps = 8;
-  for (int row = 0; row <= kSteps; ++row) {
-    for (int column = 0; column <= kSteps; ++column) {
+  for (int row = margin; row <= kSteps - margin; ++row) {
+    for (int column = margin; column <= kSteps - margin; ++column) {
       const Eigen::Vector2d pixel((intrinsics.width - 1) * column / double{kSteps},
                                   (intrinsics.height - 1) * row / double{kSteps});
       if (!model.Unproject(pixel)) {

@@ -87,21 +87,19 @@ void RigCalibration::Check() const {
   if (wheels) CheckTranslation("wheels.T_imu_base", wheels->T_imu_base);
 }
 
-SE3 TransformFromMatrix(const Eigen::Matrix4d& matrix, const std::string& key) {
-  if (!matrix.allFinite()) throw InputError(key, "holds a value that is not finite");
+SE3 TransformFromMatrix(const Eigen::Matrix4d& matrix) {
+  if (!matrix.allFinite()) throw InputError("holds a value that is not finite");
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   if ((matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > kRotationTolerance) {
-    throw InputError(key,
-                     "the last row of a transform must be 0 0 0 1 (is the matrix transposed?)");
+    throw InputError("the last row of a transform must be 0 0 0 1 (is the matrix transposed?)");
   }
   const double error = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
   if (error > 10.0 * kRotationTolerance) {
-    throw InputError(key, Concatenate("the upper left 3 × 3 is not a rotation: |R Rᵀ - I| = ",
-                                      error, "; its rows must be orthogonal unit vectors"));
+    throw InputError(Concatenate("the upper left 3 × 3 is not a rotation: |R Rᵀ - I| = ", error,
+                                 "; its rows must be orthogonal unit vectors"));
   }
   if (rotation.determinant() < 0.0) {
-    throw InputError(key,
-                     "the rotation is reflected (determinant -1): one axis has the wrong sign");
+    throw InputError("the rotation is reflected (determinant -1): one axis has the wrong sign");
   }
   return SE3::FromMatrix(matrix);
 }

@@ -57,12 +57,12 @@ struct RigCalibration {
 
   /// Throws InputError that names the key and the value: gravity or noise of another unit, rates or
   /// ranges out of bounds, intrinsics that make no camera. (Rotations are checked where they are
-  /// still matrices: CheckRotation.)
+  /// still matrices: TransformFromMatrix.)
   void Check() const;
 };
 
-/// Throws InputError unless the upper left of a 4 × 4 transform is a rotation and its last row is 0
-/// 0 0 1; says whether it is reflected, scaled or not orthogonal. `key` names it in the message.
-SE3 TransformFromMatrix(const Eigen::Matrix4d& matrix, const std::string& key);
+/// Throws InputError (without a key) unless the upper left of a 4 × 4 transform is a rotation and
+/// its last row is 0 0 0 1; says whether it is reflected, scaled or not orthogonal.
+SE3 TransformFromMatrix(const Eigen::Matrix4d& matrix);
 
 }  // namespace regolith

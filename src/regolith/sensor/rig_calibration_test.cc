@@ -57,16 +57,14 @@ TEST(RigCalibration, NamesTheKeyThatIsOutOfBounds) {
 
 TEST(TransformFromMatrix, TellsReflectionScaleAndTransposeApart) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-  EXPECT_NO_THROW(TransformFromMatrix(matrix, "T_imu_lidar"));
+  EXPECT_NO_THROW(TransformFromMatrix(matrix));
   matrix(1, 1) = -1.0;
-  EXPECT_THAT(ErrorOf([&] { TransformFromMatrix(matrix, "T_imu_lidar"); }), HasSubstr("reflected"));
+  EXPECT_THAT(ErrorOf([&] { TransformFromMatrix(matrix); }), HasSubstr("reflected"));
   matrix(1, 1) = 2.0;
-  EXPECT_THAT(ErrorOf([&] { TransformFromMatrix(matrix, "T_imu_lidar"); }),
-              HasSubstr("not a rotation"));
+  EXPECT_THAT(ErrorOf([&] { TransformFromMatrix(matrix); }), HasSubstr("not a rotation"));
   matrix = Eigen::Matrix4d::Identity();
   matrix(3, 0) = 0.5;
-  EXPECT_THAT(ErrorOf([&] { TransformFromMatrix(matrix, "T_imu_lidar"); }),
-              HasSubstr("transposed"));
+  EXPECT_THAT(ErrorOf([&] { TransformFromMatrix(matrix); }), HasSubstr("transposed"));
 }
 
 }  // namespace

@@ -1,0 +1,388 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/config/fields.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "regolith/core/error.h"
+#include "regolith/sensor/rig_calibration.h"
+
+namespace regolith {
+
+struct YamlDocument::Node {
+  YAML::Node yaml;
+  std::string name;
+};
+
+namespace {
+
+YAML::Node Parse(const std::string& text, const std::string& name) {
+  try {
+    YAML::Node node = YAML::Load(text);
+    if (node.IsNull()) return YAML::Node(YAML::NodeType::Map);
+    if (!node.IsMap()) throw InputError(name, "expected `key: value` lines (YAML)");
+    return node;
+  } catch (const YAML::Exception& error) {
+    throw InputError(Concatenate(name, ":", error.mark.line + 1), "not valid YAML: " + error.msg);
+  }
+}
+
+// Maps are merged key by key; a value keeps the mark of the file it came from.
+YAML::Node Merged(const YAML::Node& below, const YAML::Node& above) {
+  if (!below.IsMap() || !above.IsMap()) return above;
+  YAML::Node result(YAML::NodeType::Map);
+  for (const auto& item : below) {
+    const auto key = item.first.as<std::string>();
+    result[key] = above[key].IsDefined() ? Merged(item.second, above[key]) : item.second;
+  }
+  for (const auto& item : above) {
+    const auto key = item.first.as<std::string>();
+    if (!below[key].IsDefined()) result[key] = item.second;
+  }
+  return result;
+}
+
+size_t EditDistance(const std::string& first, const std::string& second) {
+  std::vector<size_t> row(second.size() + 1);
+  for (size_t j = 0; j <= second.size(); ++j) row[j] = j;
+  for (size_t i = 1; i <= first.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= second.size(); ++j) {
+      const size_t substituted = diagonal + (first[i - 1] == second[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[second.size()];
+}
+
+std::string Nearest(const std::string& key, const std::set<std::string>& known) {
+  std::string best;
+  size_t best_distance = std::numeric_limits<size_t>::max();
+  for (const std::string& candidate : known) {
+    const size_t distance = EditDistance(key, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string Join(const std::set<std::string>& words) {
+  std::string joined;
+  for (const std::string& word : words) joined += (joined.empty() ? "" : ", ") + word;
+  return joined;
+}
+
+// The shortest decimal text that reads back as the same double.
+std::string NumberText(double value) {
+  if (std::isnan(value)) return ".nan";
+  if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
+  char buffer[64];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return {buffer, end};
+}
+
+std::string QuotedText(const std::string& text) {
+  YAML::Emitter emitter;
+  emitter << text;
+  return emitter.c_str();
+}
+
+}  // namespace
+
+YamlDocument::YamlDocument(std::unique_ptr<Node> node) : node_(std::move(node)) {}
+YamlDocument::YamlDocument(YamlDocument&&) noexcept = default;
+YamlDocument& YamlDocument::operator=(YamlDocument&&) noexcept = default;
+YamlDocument::~YamlDocument() = default;
+
+YamlDocument YamlDocument::FromFile(const std::string& path) {
+  if (std::filesystem::is_directory(path))
+    throw InputError(path, "is a folder; expected a YAML file");
+  std::ifstream file(path);
+  if (!file) throw InputError(path, "cannot be read; expected a YAML file");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return FromText(text.str(), path);
+}
+
+YamlDocument YamlDocument::FromText(const std::string& text, const std::string& name) {
+  return YamlDocument(std::make_unique<Node>(Node{Parse(text, name), name}));
+}
+
+const std::string& YamlDocument::name() const { return node_->name; }
+
+YamlDocument YamlDocument::Empty(const std::string& name) { return FromText("", name); }
+
+void YamlDocument::Overlay(const YamlDocument& other) {
+  node_->yaml = Merged(node_->yaml, other.node_->yaml);
+  node_->name = other.node_->name;
+}
+
+void YamlDocument::Set(const std::string& assignment) {
+  const size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError("--set " + assignment, "expected key=value, such as lio.voxel_size=0.5");
+  }
+  std::string text = assignment.substr(equals + 1);
+  std::string key = assignment.substr(0, equals);
+  // Built from the inside out: {a: {b: value}}.
+  for (size_t dot = key.rfind('.'); dot != std::string::npos; dot = key.rfind('.')) {
+    text = "{" + key.substr(dot + 1) + ": " + text + "}";
+    key.resize(dot);
+  }
+  const std::string name = node_->name;
+  Overlay(FromText(key + ": " + text, "--set " + assignment));
+  node_->name = name;
+}
+
+std::optional<std::string> YamlDocument::Take(const std::string& key) {
+  const YAML::Node value = node_->yaml[key];
+  if (!value.IsDefined()) return std::nullopt;
+  if (!value.IsScalar()) {
+    throw InputError(Concatenate(node_->name, ":", value.Mark().line + 1),
+                     key + ": expected one value");
+  }
+  const std::string text = value.Scalar();
+  node_->yaml.remove(key);
+  return text;
+}
+
+struct FieldReader::Implementation {
+  YAML::Node node;
+  std::string file;
+  std::string path;  ///< keys that lead here, each followed by a dot
+  std::set<std::string> known;
+
+  YAML::Node Find(const char* key) {
+    known.insert(key);
+    return static_cast<const YAML::Node&>(node)[key];
+  }
+
+  [[noreturn]] void FailAt(const YAML::Node& at, const std::string& key,
+                           const std::string& problem) const {
+    const int line = at.IsDefined() ? at.Mark().line + 1 : 0;
+    throw InputError(line > 0 ? Concatenate(file, ":", line) : file, path + key + ": " + problem);
+  }
+
+  template <typename Value>
+  void Convert(const char* key, Value& value, const char* expected) {
+    const YAML::Node found = Find(key);
+    if (!found.IsDefined()) return;
+    ConvertNode(found, key, value, expected);
+  }
+
+  template <typename Value>
+  void ConvertNode(const YAML::Node& found, const std::string& key, Value& value,
+                   const char* expected) const {
+    const std::string text = found.IsScalar() ? found.Scalar() : "";
+    if (!found.IsScalar() || !YAML::convert<Value>::decode(found, value)) {
+      FailAt(found, key,
+             Concatenate(text.empty() ? "" : "`" + text + "`: ", "expected ", expected));
+    }
+    if constexpr (std::is_floating_point_v<Value>) {
+      if (!std::isfinite(value)) FailAt(found, key, "`" + text + "`: expected a finite number");
+    }
+  }
+
+  template <typename Value>
+  void ConvertList(const char* key, std::vector<Value>& values, const char* expected) {
+    const YAML::Node found = Find(key);
+    if (!found.IsDefined()) return;
+    if (!found.IsSequence())
+      FailAt(found, key, Concatenate("expected a list [a, b, …] of ", expected));
+    values.clear();
+    for (const YAML::Node& item : found) ConvertNode(item, key, values.emplace_back(), expected);
+  }
+};
+
+FieldReader::FieldReader(const YamlDocument& document)
+    : implementation_(new Implementation{document.node().yaml, document.node().name, "", {}}) {}
+
+FieldReader::FieldReader(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+
+FieldReader::~FieldReader() = default;
+
+void FieldReader::operator()(const char* key, double& value) {
+  implementation_->Convert(key, value, "a number");
+}
+void FieldReader::operator()(const char* key, int& value) {
+  implementation_->Convert(key, value, "a whole number");
+}
+void FieldReader::operator()(const char* key, int64_t& value) {
+  implementation_->Convert(key, value, "a whole number");
+}
+void FieldReader::operator()(const char* key, uint64_t& value) {
+  implementation_->Convert(key, value, "a whole number, not negative");
+}
+void FieldReader::operator()(const char* key, bool& value) {
+  implementation_->Convert(key, value, "true or false");
+}
+void FieldReader::operator()(const char* key, std::string& value) {
+  implementation_->Convert(key, value, "text");
+}
+void FieldReader::operator()(const char* key, std::vector<double>& value) {
+  implementation_->ConvertList(key, value, "numbers");
+}
+void FieldReader::operator()(const char* key, std::vector<std::string>& value) {
+  implementation_->ConvertList(key, value, "words");
+}
+
+void FieldReader::operator()(const char* key, SE3& value) {
+  const YAML::Node found = implementation_->Find(key);
+  if (!found.IsDefined()) return;
+  const char* expected =
+      "expected a transform as four rows of four numbers, [[r, r, r, x], …, [0, 0, 0, 1]]";
+  if (!found.IsSequence() || found.size() != 4) implementation_->FailAt(found, key, expected);
+  Eigen::Matrix4d matrix;
+  for (int row = 0; row < 4; ++row) {
+    const YAML::Node numbers = found[row];
+    if (!numbers.IsSequence() || numbers.size() != 4)
+      implementation_->FailAt(numbers, key, expected);
+    for (int column = 0; column < 4; ++column) {
+      implementation_->ConvertNode(numbers[column], key, matrix(row, column), "a number");
+    }
+  }
+  try {
+    value = TransformFromMatrix(matrix);
+  } catch (const InputError& error) {
+    implementation_->FailAt(found, key, error.what());
+  }
+}
+
+bool FieldReader::Has(const char* key) const { return implementation_->Find(key).IsDefined(); }
+
+std::vector<std::string> FieldReader::Keys() const {
+  std::vector<std::string> keys;
+  for (const auto& item : implementation_->node) keys.push_back(item.first.as<std::string>());
+  return keys;
+}
+
+void FieldReader::Finish() {
+  for (const auto& item : implementation_->node) {
+    const auto key = item.first.as<std::string>();
+    const std::set<std::string>& known = implementation_->known;
+    if (known.count(key) != 0) continue;
+    implementation_->FailAt(item.first, key,
+                            known.empty()
+                                ? "unknown key"
+                                : Concatenate("unknown key; did you mean `", Nearest(key, known),
+                                              "`? Known here: ", Join(known)));
+  }
+}
+
+void FieldReader::Fail(const char* key, const std::string& problem) const {
+  implementation_->FailAt(implementation_->Find(key), key, problem);
+}
+
+std::unique_ptr<FieldReader> FieldReader::Child(const char* key) {
+  const YAML::Node found = implementation_->Find(key);
+  if (!found.IsDefined()) return nullptr;
+  if (!found.IsMap()) implementation_->FailAt(found, key, "expected `key: value` lines below it");
+  return std::unique_ptr<FieldReader>(new FieldReader(std::unique_ptr<Implementation>(
+      new Implementation{found, implementation_->file, implementation_->path + key + ".", {}})));
+}
+
+std::vector<std::unique_ptr<FieldReader>> FieldReader::Children(const char* key) {
+  const YAML::Node found = implementation_->Find(key);
+  if (!found.IsSequence())
+    implementation_->FailAt(found, key, "expected a list of `- key: value` items");
+  std::vector<std::unique_ptr<FieldReader>> children;
+  for (const YAML::Node& item : found) {
+    if (!item.IsMap())
+      implementation_->FailAt(item, key, "expected `key: value` lines in each item");
+    children.push_back(std::unique_ptr<FieldReader>(new FieldReader(std::unique_ptr<Implementation>(
+        new Implementation{item, implementation_->file, implementation_->path + key + ".", {}}))));
+  }
+  return children;
+}
+
+struct FieldWriter::Implementation {
+  std::string text;
+  int depth = 0;
+  bool first_of_item = false;
+
+  void Line(const std::string& line) {
+    // The first line of a list item stands behind its dash.
+    text += std::string(static_cast<size_t>(2 * depth - (first_of_item ? 2 : 0)), ' ');
+    text += (first_of_item ? "- " : "") + line + "\n";
+    first_of_item = false;
+  }
+
+  template <typename Value, typename ToText>
+  std::string List(const std::vector<Value>& values, ToText to_text) {
+    std::string list;
+    for (const Value& value : values) list += (list.empty() ? "" : ", ") + to_text(value);
+    return "[" + list + "]";
+  }
+};
+
+FieldWriter::FieldWriter() : implementation_(std::make_unique<Implementation>()) {}
+FieldWriter::~FieldWriter() = default;
+
+void FieldWriter::operator()(const char* key, double value) {
+  implementation_->Line(std::string(key) + ": " + NumberText(value));
+}
+void FieldWriter::operator()(const char* key, int value) {
+  implementation_->Line(std::string(key) + ": " + std::to_string(value));
+}
+void FieldWriter::operator()(const char* key, int64_t value) {
+  implementation_->Line(std::string(key) + ": " + std::to_string(value));
+}
+void FieldWriter::operator()(const char* key, uint64_t value) {
+  implementation_->Line(std::string(key) + ": " + std::to_string(value));
+}
+void FieldWriter::operator()(const char* key, bool value) {
+  implementation_->Line(std::string(key) + ": " + (value ? "true" : "false"));
+}
+void FieldWriter::operator()(const char* key, std::string& value) {
+  implementation_->Line(std::string(key) + ": " + QuotedText(value));
+}
+void FieldWriter::operator()(const char* key, std::vector<double>& value) {
+  implementation_->Line(std::string(key) + ": " + implementation_->List(value, NumberText));
+}
+void FieldWriter::operator()(const char* key, std::vector<std::string>& value) {
+  implementation_->Line(std::string(key) + ": " + implementation_->List(value, QuotedText));
+}
+
+void FieldWriter::operator()(const char* key, SE3& value) {
+  const Eigen::Matrix4d matrix = value.Matrix();
+  implementation_->Line(std::string(key) + ":");
+  for (int row = 0; row < 4; ++row) {
+    std::vector<double> numbers(4);
+    for (int column = 0; column < 4; ++column)
+      numbers[static_cast<size_t>(column)] = matrix(row, column);
+    implementation_->Line("  - " + implementation_->List(numbers, NumberText));
+  }
+}
+
+void FieldWriter::Begin(const char* key) {
+  implementation_->Line(std::string(key) + ":");
+  ++implementation_->depth;
+}
+void FieldWriter::BeginItem() {
+  ++implementation_->depth;
+  implementation_->first_of_item = true;
+}
+void FieldWriter::End() { --implementation_->depth; }
+void FieldWriter::BeginList(const char* key) {
+  implementation_->Line(std::string(key) + ":");
+  ++implementation_->depth;
+}
+void FieldWriter::EndList() { --implementation_->depth; }
+
+std::string FieldWriter::Text() const { return implementation_->text; }
+
+}  // namespace regolith

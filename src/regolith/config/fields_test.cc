@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/config/fields.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "regolith/core/error.h"
+#include "regolith/geometry/so3.h"
+
+namespace regolith {
+
+// As a .cc of options would have them.
+struct WheelOptions {
+  double radius = 0.2;
+  std::string name = "left";
+};
+
+struct RoverOptions {
+  int wheels = 4;
+  bool powered = true;
+  double speed = 0.5;
+  Eigen::Vector3d offset{1.0, 2.0, 3.0};
+  SE3 T_imu_base;
+  WheelOptions wheel;
+  std::optional<WheelOptions> spare;
+  std::vector<WheelOptions> list;
+  std::map<std::string, WheelOptions> named;
+};
+
+template <typename Archive>
+void Fields(Archive& archive, WheelOptions& options) {
+  archive("radius", options.radius);
+  archive("name", options.name);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, RoverOptions& options) {
+  archive("wheels", options.wheels);
+  archive("powered", options.powered);
+  archive("speed", options.speed);
+  archive("offset", options.offset);
+  archive("T_imu_base", options.T_imu_base);
+  archive("wheel", options.wheel);
+  archive("spare", options.spare);
+  archive("list", options.list);
+  archive("named", options.named);
+}
+
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+RoverOptions Read(const YamlDocument& document) {
+  RoverOptions options;
+  FieldReader reader(document);
+  Fields(reader, options);
+  reader.Finish();
+  return options;
+}
+
+std::string ErrorOf(const std::string& text) {
+  try {
+    Read(YamlDocument::FromText(text, "rover.yaml"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Fields, KeepsDefaultsWhereKeysAreAbsent) {
+  const RoverOptions options = Read(YamlDocument::FromText("speed: 0.7\n", "rover.yaml"));
+  EXPECT_EQ(options.speed, 0.7);
+  EXPECT_EQ(options.wheels, 4);
+  EXPECT_FALSE(options.spare.has_value());
+}
+
+TEST(Fields, WrittenTextReadsBackAsTheSame) {
+  RoverOptions options;
+  options.speed = 0.1 + 0.2;
+  options.powered = false;
+  options.T_imu_base = {ExpSo3({0.1, 0.2, 0.3}), {4.0, 5.0, 6.0}};
+  options.wheel.name = "yes: no #";
+  options.spare = WheelOptions{0.3, "spare"};
+  options.list = {{0.1, "a"}, {0.2, "b"}};
+  options.named["rear"] = {0.4, "rear"};
+  FieldWriter writer;
+  Fields(writer, options);
+  const RoverOptions copy = Read(YamlDocument::FromText(writer.Text(), "rover.yaml"));
+  EXPECT_EQ(copy.speed, options.speed);
+  EXPECT_FALSE(copy.powered);
+  EXPECT_LT((copy.T_imu_base.Matrix() - options.T_imu_base.Matrix()).norm(), 1e-15);
+  EXPECT_EQ(copy.wheel.name, options.wheel.name);
+  EXPECT_EQ(copy.spare->radius, 0.3);
+  ASSERT_EQ(copy.list.size(), 2U);
+  EXPECT_EQ(copy.list[1].name, "b");
+  EXPECT_EQ(copy.named.at("rear").radius, 0.4);
+}
+
+TEST(Fields, UnknownKeysAreRefusedWithFileLineAndTheNearestKey) {
+  EXPECT_THAT(ErrorOf("speed: 0.5\nwheel:\n  radios: 0.2\n"),
+              AllOf(HasSubstr("rover.yaml:3"), HasSubstr("wheel.radios"), HasSubstr("`radius`")));
+}
+
+TEST(Fields, ValuesOfAnotherTypeAreRefused) {
+  EXPECT_THAT(ErrorOf("speed: fast\n"), AllOf(HasSubstr("rover.yaml:1"), HasSubstr("a number")));
+  EXPECT_THAT(ErrorOf("wheels: 4.5\n"), HasSubstr("a whole number"));
+  EXPECT_THAT(ErrorOf("speed: .nan\n"), HasSubstr("finite"));
+  EXPECT_THAT(ErrorOf("offset: [1, 2]\n"), HasSubstr("expected 3"));
+  EXPECT_THAT(ErrorOf("wheel: 7\n"), HasSubstr("wheel"));
+  EXPECT_THAT(ErrorOf("list: 7\n"), HasSubstr("list"));
+  EXPECT_THAT(ErrorOf("- 7\n"), HasSubstr("key: value"));
+  EXPECT_THAT(ErrorOf("a: [\n"), HasSubstr("not valid YAML"));
+}
+
+TEST(Fields, ReflectedRotationsAreRefused) {
+  EXPECT_THAT(
+      ErrorOf(
+          "T_imu_base:\n  - [1, 0, 0, 0]\n  - [0, -1, 0, 0]\n  - [0, 0, 1, 0]\n  - [0, 0, 0, 1]\n"),
+      AllOf(HasSubstr("T_imu_base"), HasSubstr("reflected")));
+}
+
+TEST(YamlDocument, OverlaysMergeMapsAndReplaceTheRest) {
+  YamlDocument document = YamlDocument::FromText("speed: 1\nwheel: {radius: 0.1, name: x}\n", "a");
+  document.Overlay(YamlDocument::FromText("wheel: {name: y}\n", "b"));
+  document.Set("wheel.radius=0.9");
+  document.Set("named.rear.radius=0.8");
+  const RoverOptions options = Read(document);
+  EXPECT_EQ(options.speed, 1.0);
+  EXPECT_EQ(options.wheel.name, "y");
+  EXPECT_EQ(options.wheel.radius, 0.9);
+  EXPECT_EQ(options.named.at("rear").radius, 0.8);
+  EXPECT_THROW(document.Set("speed"), InputError);
+}
+
+TEST(YamlDocument, MissingFilesAreNamed) {
+  EXPECT_THROW(YamlDocument::FromFile("/nowhere/rig.yaml"), InputError);
+  EXPECT_THROW(YamlDocument::FromFile("/tmp"), InputError);
+}
+
+}  // namespace
+}  // namespace regolith
