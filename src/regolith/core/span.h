@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 namespace regolith {
 
@@ -17,10 +18,11 @@ class Span {
   constexpr Span() = default;
   constexpr Span(T* data, size_t size) : data_(data), size_(size) {}
 
-  /// Any container with data() and size(): vector, array, string, another span.
+  /// Any container with data() and size(): vector, array, string, another span. A temporary lives
+  /// to the end of the call that takes the view.
   template <typename Container, typename = std::enable_if_t<std::is_convertible_v<
                                     decltype(std::declval<Container&>().data()), T*>>>
-  constexpr Span(Container& container)  // NOLINT(google-explicit-constructor)
+  constexpr Span(Container&& container)  // NOLINT: implicit, and takes temporaries
       : data_(container.data()), size_(container.size()) {}
 
   constexpr T* data() const { return data_; }

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "regolith/cloud/voxel_map.h"
+#include "regolith/core/span.h"
+#include "regolith/core/thread_pool.h"
+#include "regolith/geometry/se3.h"
+#include "regolith/registration/point_to_plane_options.h"
+
+namespace regolith {
+
+/// The quadratic form ½ δᵀ information δ + gradientᵀ δ of a scan's cost around a pose, with δ as in
+/// Plus(pose, δ): [rotation (right, rad), position (m)].
+struct PointToPlaneSystem {
+  Matrix6d information = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  int points = 0;        ///< points tried
+  int matches = 0;       ///< points with a plane
+  double inliers = 0.0;  ///< sum of the robust weights
+  double scale = 0.0;    ///< m, robust standard deviation of the residuals
+};
+
+/// Matches each point (m, body frame) to the plane through its nearest map points and linearises
+/// the residuals r = nᵀ(T p - c) with Geman–McClure weights, whose scale is estimated from the
+/// residuals themselves (1.4826 · median |r|). Chunks are reduced in order: the same result for any
+/// number of threads.
+PointToPlaneSystem LinearizePointToPlane(Span<const Eigen::Vector3d> points_body,
+                                         const SE3& T_map_body, const VoxelMap& map,
+                                         const PointToPlaneOptions& options, ThreadPool* threads);
+
+}  // namespace regolith
