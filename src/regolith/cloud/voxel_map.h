@@ -40,6 +40,7 @@ class VoxelMap {
   /// Up to `count` nearest points within `max_distance` (m, at most one voxel edge) of `query`.
   Neighbours Nearest(const Eigen::Vector3d& query, int count, double max_distance) const;
 
+  double voxel_size() const { return options_.voxel_size; }
   bool empty() const { return keys_.empty(); }
   size_t voxel_count() const { return keys_.size(); }
   /// All points, voxel by voxel in the order in which the voxels appeared.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -22,27 +23,39 @@ constexpr double kKernelSigmas = 3.0;
 struct Match {
   bool valid = false;
   double residual = 0.0;
+  double thickness_squared = 0.0;  ///< m², of the neighbourhood across its plane
   Vector6d jacobian = Vector6d::Zero();
 };
 
-Match MatchPoint(const Eigen::Vector3d& point_body, const SE3& T_map_body, const VoxelMap& map,
-                 const PointToPlaneOptions& options) {
+bool IsPlane(const PlaneFit& plane, const PointToPlaneOptions& options) {
+  const Eigen::Vector3d spread = plane.variances.cwiseSqrt();
+  return spread[0] <= options.max_thickness_ratio * spread[1] &&
+         spread[1] >= options.min_width_ratio * spread[2];
+}
+
+std::optional<PlaneFit> FindPlane(const Eigen::Vector3d& point_map, Span<const VoxelMap> maps,
+                                  const PointToPlaneOptions& options) {
+  for (const VoxelMap& map : maps) {
+    const Neighbours neighbours = map.Nearest(point_map, options.neighbours, map.voxel_size());
+    if (neighbours.count < options.min_neighbours) continue;
+    const PlaneFit plane = FitPlane(neighbours.Points());
+    if (IsPlane(plane, options)) return plane;
+  }
+  return std::nullopt;
+}
+
+Match MatchPoint(const Eigen::Vector3d& point_body, const SE3& T_map_body,
+                 Span<const VoxelMap> maps, const PointToPlaneOptions& options) {
   Match match;
   const Eigen::Vector3d point_map = T_map_body * point_body;
-  const Neighbours neighbours =
-      map.Nearest(point_map, options.neighbours, options.max_neighbour_distance);
-  if (neighbours.count < options.min_neighbours) return match;
-  const PlaneFit plane = FitPlane(neighbours.Points());
-  const Eigen::Vector3d spread = plane.variances.cwiseSqrt();
-  if (spread[0] > options.max_thickness_ratio * spread[1] ||
-      spread[1] < options.min_width_ratio * spread[2]) {
-    return match;
-  }
+  const std::optional<PlaneFit> plane = FindPlane(point_map, maps, options);
+  if (!plane) return match;
   match.valid = true;
-  match.residual = plane.normal.dot(point_map - plane.centroid);
+  match.residual = plane->normal.dot(point_map - plane->centroid);
+  match.thickness_squared = plane->variances[0];
   // d r / d rotation = nᵀ d(R Exp(φ) p) = (p × Rᵀ n)ᵀ.
-  const Eigen::Vector3d normal_body = T_map_body.rotation.conjugate() * plane.normal;
-  match.jacobian << point_body.cross(normal_body), plane.normal;
+  const Eigen::Vector3d normal_body = T_map_body.rotation.conjugate() * plane->normal;
+  match.jacobian << point_body.cross(normal_body), plane->normal;
   return match;
 }
 
@@ -63,7 +76,6 @@ void PointToPlaneOptions::Check() const {
   REGOLITH_CHECK(neighbours >= 3 && neighbours <= Neighbours::kMost, "neighbours=", neighbours);
   REGOLITH_CHECK(min_neighbours >= 3 && min_neighbours <= neighbours,
                  "min_neighbours=", min_neighbours);
-  REGOLITH_CHECK(max_neighbour_distance > 0.0, "max_neighbour_distance=", max_neighbour_distance);
   REGOLITH_CHECK(max_thickness_ratio > 0.0, "max_thickness_ratio=", max_thickness_ratio);
   REGOLITH_CHECK(min_width_ratio >= 0.0 && min_width_ratio < 1.0,
                  "min_width_ratio=", min_width_ratio);
@@ -72,31 +84,30 @@ void PointToPlaneOptions::Check() const {
 }
 
 PointToPlaneSystem LinearizePointToPlane(Span<const Eigen::Vector3d> points_body,
-                                         const SE3& T_map_body, const VoxelMap& map,
+                                         const SE3& T_map_body, Span<const VoxelMap> maps,
                                          const PointToPlaneOptions& options, ThreadPool* threads) {
   std::vector<Match> matches(points_body.size());
   threads->ParallelFor(points_body.size(), kChunkSize, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
-      matches[i] = MatchPoint(points_body[i], T_map_body, map, options);
+      matches[i] = MatchPoint(points_body[i], T_map_body, maps, options);
     }
   });
   PointToPlaneSystem system;
   system.points = static_cast<int>(points_body.size());
   system.scale = RobustScale(matches, options.range_sigma);
   const double kernel = kKernelSigmas * system.scale;
+  const double variance = system.scale * system.scale;
   for (const Match& match : matches) {
     if (!match.valid) continue;
     const double ratio = match.residual / kernel;
     const double root = 1.0 / (1.0 + ratio * ratio);
     const double weight = root * root;
-    system.information.noalias() += weight * match.jacobian * match.jacobian.transpose();
-    system.gradient += weight * match.residual * match.jacobian;
+    const double precision = options.independence * weight / (variance + match.thickness_squared);
+    system.information.noalias() += precision * match.jacobian * match.jacobian.transpose();
+    system.gradient += precision * match.residual * match.jacobian;
     system.inliers += weight;
     ++system.matches;
   }
-  const double precision = options.independence / (system.scale * system.scale);
-  system.information *= precision;
-  system.gradient *= precision;
   return system;
 }
 

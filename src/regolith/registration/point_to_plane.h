@@ -27,10 +27,12 @@ struct PointToPlaneSystem {
 
 /// Matches each point (m, body frame) to the plane through its nearest map points and linearises
 /// the residuals r = nᵀ(T p - c) with Geman–McClure weights, whose scale is estimated from the
-/// residuals themselves (1.4826 · median |r|). Chunks are reduced in order: the same result for any
-/// number of threads.
+/// residuals themselves (1.4826 · median |r|). `maps` hold the same points from fine to coarse
+/// voxels: the first in which the neighbourhood is a plane is taken, so that dense ground is met
+/// locally and the sparse rings of far walls still make planes. Chunks are reduced in order: the
+/// same result for any number of threads.
 PointToPlaneSystem LinearizePointToPlane(Span<const Eigen::Vector3d> points_body,
-                                         const SE3& T_map_body, const VoxelMap& map,
+                                         const SE3& T_map_body, Span<const VoxelMap> maps,
                                          const PointToPlaneOptions& options, ThreadPool* threads);
 
 }  // namespace regolith

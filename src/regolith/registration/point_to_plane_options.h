@@ -5,9 +5,8 @@
 namespace regolith {
 
 struct PointToPlaneOptions {
-  int neighbours = 8;                   ///< map points a plane is fitted to
-  int min_neighbours = 5;               ///< fewer make no plane
-  double max_neighbour_distance = 0.5;  ///< m
+  int neighbours = 8;      ///< map points a plane is fitted to
+  int min_neighbours = 5;  ///< fewer make no plane
   /// Spread of a neighbourhood across its plane over its second spread, standard deviations: more
   /// is no plane.
   double max_thickness_ratio = 0.4;

@@ -19,15 +19,15 @@ Eigen::Vector3d GroundPoint(double x, double y) {
   return {x, y, 0.6 * std::sin(0.4 * x) + 0.5 * std::cos(0.5 * y)};
 }
 
-VoxelMap GroundMap(bool flat) {
-  VoxelMap map({});
+std::vector<VoxelMap> GroundMap(bool flat) {
+  std::vector<VoxelMap> map(1, VoxelMap({}));
   std::vector<Eigen::Vector3d> points;
   for (double x = -15.0; x <= 15.0; x += 0.1) {
     for (double y = -15.0; y <= 15.0; y += 0.1) {
       points.push_back(flat ? Eigen::Vector3d(x, y, 0.0) : GroundPoint(x, y));
     }
   }
-  map.Add(points);
+  map[0].Add(points);
   return map;
 }
 
@@ -47,7 +47,7 @@ std::vector<Eigen::Vector3d> Scan(const SE3& T_map_body, double sigma, bool flat
 SE3 TruePose() { return {ExpSo3({0.02, -0.03, 0.3}), {0.5, -0.4, 1.2}}; }
 
 TEST(PointToPlane, GaussNewtonConvergesToTheTruePose) {
-  const VoxelMap map = GroundMap(false);
+  const std::vector<VoxelMap> map = GroundMap(false);
   const auto points = Scan(TruePose(), 0.02, false);
   ThreadPool threads(2);
   Vector6d offset;
@@ -62,7 +62,7 @@ TEST(PointToPlane, GaussNewtonConvergesToTheTruePose) {
 }
 
 TEST(PointToPlane, OutliersLoseTheirWeight) {
-  const VoxelMap map = GroundMap(false);
+  const std::vector<VoxelMap> map = GroundMap(false);
   auto points = Scan(TruePose(), 0.01, false);
   const auto clean = [&] {
     ThreadPool threads(1);
@@ -80,7 +80,7 @@ TEST(PointToPlane, OutliersLoseTheirWeight) {
 }
 
 TEST(PointToPlane, FlatGroundLeavesItsThreeDirectionsOpen) {
-  const VoxelMap map = GroundMap(true);
+  const std::vector<VoxelMap> map = GroundMap(true);
   ThreadPool threads(1);
   const auto system = LinearizePointToPlane(Scan(SE3(), 0.0, true), SE3(), map, {}, &threads);
   EXPECT_LT(system.information(3, 3), 1e-6 * system.information(5, 5));
@@ -89,7 +89,7 @@ TEST(PointToPlane, FlatGroundLeavesItsThreeDirectionsOpen) {
 }
 
 TEST(PointToPlane, SameBytesForAnyNumberOfThreads) {
-  const VoxelMap map = GroundMap(false);
+  const std::vector<VoxelMap> map = GroundMap(false);
   const auto points = Scan(TruePose(), 0.02, false);
   ThreadPool one(1);
   ThreadPool three(3);
@@ -99,15 +99,34 @@ TEST(PointToPlane, SameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(first.gradient, second.gradient);
 }
 
-TEST(PointToPlane, RingsThatMakeNoPlaneAreNotMatched) {
-  VoxelMap map({});
+std::vector<Eigen::Vector3d> Ring(double height) {
   std::vector<Eigen::Vector3d> ring;
   for (double angle = 0.0; angle < 6.28; angle += 0.003) {
-    ring.emplace_back(5.0 * std::cos(angle), 5.0 * std::sin(angle), 0.0);
+    ring.emplace_back(5.0 * std::cos(angle), 5.0 * std::sin(angle), height);
   }
-  map.Add(ring);
+  return ring;
+}
+
+TEST(PointToPlane, ARingAloneMakesNoPlane) {
+  std::vector<VoxelMap> map(1, VoxelMap({}));
+  map[0].Add(Ring(0.0));
   ThreadPool threads(1);
-  EXPECT_EQ(LinearizePointToPlane(ring, SE3(), map, {}, &threads).matches, 0);
+  EXPECT_EQ(LinearizePointToPlane(Ring(0.0), SE3(), map, {}, &threads).matches, 0);
+}
+
+TEST(PointToPlane, RingsApartMakePlanesInACoarserMap) {
+  VoxelMapOptions coarse;
+  coarse.voxel_size = 1.5;
+  std::vector<VoxelMap> maps = {VoxelMap({}), VoxelMap(coarse)};
+  for (VoxelMap& map : maps) {
+    map.Add(Ring(0.0));
+    map.Add(Ring(0.6));
+  }
+  ThreadPool threads(1);
+  const auto fine = LinearizePointToPlane(Ring(0.0), SE3(), {maps.data(), 1}, {}, &threads);
+  const auto both = LinearizePointToPlane(Ring(0.0), SE3(), maps, {}, &threads);
+  EXPECT_EQ(fine.matches, 0);
+  EXPECT_GT(both.matches, both.points / 2);
 }
 
 }  // namespace

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/lio/inertial_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "regolith/geometry/so3.h"
+#include "regolith/imu/propagation.h"
+
+namespace regolith {
+namespace {
+
+constexpr int kRotation = 0;
+constexpr int kPosition = 3;
+constexpr int kVelocity = 6;
+constexpr int kGyroBias = 9;
+constexpr int kAccelerometerBias = 12;
+constexpr int kGravity = 15;
+// Keeps the covariance invertible along what is fixed by definition: the first pose, gravity's
+// magnitude.
+constexpr double kFixedSigma = 1e-4;
+// A body that moves unseen, 1 σ: rovers neither turn nor accelerate harder.
+constexpr double kBlindRate = 0.5;          // rad/s
+constexpr double kBlindAcceleration = 1.0;  // m/s²
+
+template <int kAt>
+auto Diagonal(InertialFilter::Covariance& covariance) {
+  return covariance.diagonal().segment<3>(kAt);
+}
+
+}  // namespace
+
+InertialFilter::InertialFilter(TimeNs time, const RestReport& first_samples, double gravity,
+                               const ImuNoise& noise, const InertialFilterOptions& options)
+    : gravity_world_(0.0, 0.0, -gravity), gravity_(gravity), noise_(noise), options_(options) {
+  const RestState rest = InitializeAtRest(first_samples.statistics);
+  const bool at_rest = first_samples.at_rest;
+  state_.time = time;
+  state_.T_world_imu.rotation = rest.rotation_world_imu;
+  if (at_rest) state_.gyro_bias = rest.gyro_bias;
+
+  Diagonal<kRotation>(covariance_).setConstant(kFixedSigma * kFixedSigma);
+  Diagonal<kPosition>(covariance_).setConstant(kFixedSigma * kFixedSigma);
+  const double velocity_sigma =
+      at_rest ? options.rest_velocity_sigma : options.moving_velocity_sigma;
+  Diagonal<kVelocity>(covariance_).setConstant(velocity_sigma * velocity_sigma);
+  const double gyro_sigma = at_rest ? rest.gyro_bias_sigma + 1e-5 : noise.gyro_bias_sigma;
+  Diagonal<kGyroBias>(covariance_).setConstant(gyro_sigma * gyro_sigma);
+  const double bias_sigma = noise.accelerometer_bias_sigma;
+  Diagonal<kAccelerometerBias>(covariance_).setConstant(bias_sigma * bias_sigma);
+  // What tilts the first attitude: the bias, and the rover's own acceleration where it moves.
+  const double tilt_sigma =
+      rest.tilt_sigma + bias_sigma / gravity + (at_rest ? 0.0 : options.moving_tilt_sigma);
+  const double horizontal = gravity * tilt_sigma;
+  covariance_.diagonal().segment<2>(kGravity).setConstant(horizontal * horizontal);
+  covariance_(kGravity + 2, kGravity + 2) = kFixedSigma * kFixedSigma;
+}
+
+void InertialFilter::Propagate(const ImuSample& from, const ImuSample& to) {
+  const double dt = SecondsBetween(from.time, to.time);
+  if (dt <= 0.0) return;
+  const Eigen::Vector3d rate =
+      0.5 * (from.angular_velocity + to.angular_velocity) - state_.gyro_bias;
+  const Eigen::Vector3d force =
+      0.5 * (from.specific_force + to.specific_force) - state_.accelerometer_bias;
+  const Eigen::Matrix3d rotation = state_.T_world_imu.rotation.toRotationMatrix();
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+
+  // Solà 2017, eq. 269–270, with the position's second-order terms left to the velocity.
+  Covariance transition = Covariance::Identity();
+  transition.block<3, 3>(kRotation, kRotation) = ExpSo3(-rate * dt).toRotationMatrix();
+  transition.block<3, 3>(kRotation, kGyroBias) = -RightJacobianSo3(rate * dt) * dt;
+  transition.block<3, 3>(kPosition, kVelocity) = identity * dt;
+  transition.block<3, 3>(kVelocity, kRotation) = -rotation * Hat(force) * dt;
+  transition.block<3, 3>(kVelocity, kAccelerometerBias) = -rotation * dt;
+  transition.block<3, 3>(kVelocity, kGravity) = identity * dt;
+  covariance_ = (transition * covariance_ * transition.transpose()).eval();
+
+  const double inflation = options_.noise_inflation * options_.noise_inflation;
+  Diagonal<kRotation>(covariance_).array() += inflation * std::pow(noise_.gyro_density, 2) * dt;
+  Diagonal<kVelocity>(covariance_).array() +=
+      inflation * std::pow(noise_.accelerometer_density, 2) * dt;
+  Diagonal<kGyroBias>(covariance_).array() += std::pow(noise_.gyro_walk, 2) * dt;
+  Diagonal<kAccelerometerBias>(covariance_).array() += std::pow(noise_.accelerometer_walk, 2) * dt;
+
+  state_ = regolith::Propagate(state_, from, to, gravity_world_);
+}
+
+void InertialFilter::PropagateBlindly(TimeNs time) {
+  const double dt = SecondsBetween(state_.time, time);
+  if (dt <= 0.0) return;
+  state_.T_world_imu.translation += state_.v_world_imu * dt;
+  state_.time = time;
+  Covariance transition = Covariance::Identity();
+  transition.block<3, 3>(kPosition, kVelocity) = Eigen::Matrix3d::Identity() * dt;
+  covariance_ = (transition * covariance_ * transition.transpose()).eval();
+  Diagonal<kRotation>(covariance_).array() += std::pow(kBlindRate * dt, 2);
+  Diagonal<kVelocity>(covariance_).array() += std::pow(kBlindAcceleration * dt, 2);
+  Diagonal<kPosition>(covariance_).array() += std::pow(0.5 * kBlindAcceleration * dt * dt, 2);
+}
+
+void InertialFilter::AbsorbPose(const SE3& T_world_imu, const Matrix6d& covariance) {
+  const Matrix6d prior_inverse = PoseCovariance().ldlt().solve(Matrix6d::Identity());
+  // x | pose is Gaussian with gain P_x,pose P_pose⁻¹: the pose's new mean and covariance pass
+  // through it.
+  const Eigen::Matrix<double, kSize, 6> gain = covariance_.leftCols<6>() * prior_inverse;
+  const Matrix6d lost = PoseCovariance() - covariance;
+  Covariance updated = covariance_ - gain * lost * gain.transpose();
+  covariance_ = 0.5 * (updated + updated.transpose());
+  Correct(gain * Minus(T_world_imu, state_.T_world_imu));
+}
+
+void InertialFilter::AbsorbRest(const ImuStatistics& samples) {
+  // z = [v; mean rate - gyro bias] = 0.
+  Eigen::Matrix<double, 6, kSize> jacobian = Eigen::Matrix<double, 6, kSize>::Zero();
+  jacobian.block<3, 3>(0, kVelocity).setIdentity();
+  jacobian.block<3, 3>(3, kGyroBias).setIdentity();
+  Vector6d innovation;
+  innovation << -state_.v_world_imu, samples.mean_rate - state_.gyro_bias;
+  const double rate_sigma =
+      samples.sigma_rate.maxCoeff() / std::sqrt(std::max(1.0, static_cast<double>(samples.count))) +
+      1e-5;
+  Vector6d noise;
+  noise << Eigen::Vector3d::Constant(std::pow(options_.rest_velocity_sigma, 2)),
+      Eigen::Vector3d::Constant(rate_sigma * rate_sigma);
+  Matrix6d innovation_covariance = jacobian * covariance_ * jacobian.transpose();
+  innovation_covariance.diagonal() += noise;
+  const Eigen::Matrix<double, kSize, 6> gain =
+      innovation_covariance.ldlt().solve(jacobian * covariance_).transpose();
+  // Joseph's form keeps the covariance positive.
+  const Covariance remaining = Covariance::Identity() - gain * jacobian;
+  const Covariance updated = remaining * covariance_ * remaining.transpose() +
+                             gain * noise.asDiagonal() * gain.transpose();
+  covariance_ = 0.5 * (updated + updated.transpose());
+  Correct(gain * innovation);
+}
+
+void InertialFilter::Correct(const Eigen::Matrix<double, kSize, 1>& error) {
+  state_.T_world_imu = Plus(state_.T_world_imu, error.head<6>());
+  state_.v_world_imu += error.segment<3>(kVelocity);
+  state_.gyro_bias += error.segment<3>(kGyroBias);
+  state_.accelerometer_bias += error.segment<3>(kAccelerometerBias);
+  gravity_world_ = gravity_ * (gravity_world_ + error.segment<3>(kGravity)).normalized();
+}
+
+}  // namespace regolith

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "regolith/geometry/nav_state.h"
+#include "regolith/imu/rest_detection.h"
+#include "regolith/lio/inertial_filter_options.h"
+#include "regolith/sensor/imu_noise.h"
+#include "regolith/sensor/imu_sample.h"
+
+namespace regolith {
+
+/// Error-state filter of one IMU (Solà 2017, "Quaternion kinematics for the error-state Kalman
+/// filter"; Xu et al. 2022 for gravity as a state). Error order: [rotation (right), position,
+/// velocity, gyro bias, accelerometer bias, gravity], SI units. The world's z axis points up as far
+/// as the first samples tell; what the accelerometer's bias hides of that is estimated as the
+/// direction of gravity, whose magnitude is known.
+class InertialFilter {
+ public:
+  static constexpr int kSize = 18;
+  using Covariance = Eigen::Matrix<double, kSize, kSize>;
+
+  /// Starts from the statistics of the first samples. `gravity`: magnitude, m/s².
+  InertialFilter(TimeNs time, const RestReport& first_samples, double gravity,
+                 const ImuNoise& noise, const InertialFilterOptions& options);
+
+  const NavState& state() const { return state_; }
+  const Eigen::Vector3d& gravity_world() const { return gravity_world_; }
+  const Covariance& covariance() const { return covariance_; }
+  Matrix6d PoseCovariance() const { return covariance_.topLeftCorner<6, 6>(); }
+
+  /// Moves the state from one sample to the next.
+  void Propagate(const ImuSample& from, const ImuSample& to);
+
+  /// Moves the state over time without samples (a gap): no rotation, no acceleration, growing
+  /// doubt.
+  void PropagateBlindly(TimeNs time);
+
+  /// Takes in a pose that was estimated with this filter's pose as its prior: its mean and
+  /// covariance replace the prior's, and everything that is correlated with the pose follows.
+  void AbsorbPose(const SE3& T_world_imu, const Matrix6d& covariance);
+
+  /// Zero velocity, and zero rotation so that the mean rate is the gyro's bias.
+  void AbsorbRest(const ImuStatistics& samples);
+
+ private:
+  void Correct(const Eigen::Matrix<double, kSize, 1>& error);
+
+  NavState state_;
+  Eigen::Vector3d gravity_world_;
+  Covariance covariance_ = Covariance::Zero();
+  double gravity_;
+  ImuNoise noise_;
+  InertialFilterOptions options_;
+};
+
+}  // namespace regolith

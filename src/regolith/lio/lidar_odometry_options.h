@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "regolith/cloud/voxel_map_options.h"
+#include "regolith/imu/rest_detection_options.h"
+#include "regolith/lio/inertial_filter_options.h"
+#include "regolith/lio/scan_matcher.h"
+
+namespace regolith {
+
+struct LidarOdometryOptions {
+  bool imu = true;      ///< false: lidar alone, guess from constant velocity
+  VoxelMapOptions map;  ///< the finest; each coarser one has voxels `map_growth` times as large
+  int map_levels = 2;
+  double map_growth = 3.0;
+  ScanMatcherOptions matcher;
+  double scan_voxel_size = 0.35;       ///< m, one point a voxel is matched
+  double initialization_window = 1.0;  ///< s of IMU samples that start the filter
+  RestDetectionOptions rest;
+  double rest_window = 0.5;  ///< s of IMU samples that must be still to say that the rover stands
+  double rest_max_speed = 0.03;  ///< m/s, a faster estimate says that it does not
+  InertialFilterOptions filter;
+  /// Without an IMU, 1 σ of what the motion between two scans may differ from that before.
+  double velocity_rotation_sigma = 0.05;  ///< rad
+  double velocity_position_sigma = 0.3;   ///< m
+  double max_imu_gap = 0.1;  ///< s between samples; a longer one is bridged by constant velocity
+
+  /// Throws CheckError on values that make no odometry.
+  void Check() const;
+};
+
+}  // namespace regolith

@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/lio/lidar_odometry.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "regolith/core/error.h"
+#include "regolith/core/random.h"
+#include "regolith/geometry/so3.h"
+
+namespace regolith {
+namespace {
+
+constexpr double kGravity = 1.62;
+constexpr double kPi = 3.141592653589793;
+
+double Ground(double x, double y) {
+  return 0.5 * std::sin(0.5 * x) + 0.4 * std::cos(0.6 * y) + 0.1 * std::sin(1.7 * x + 1.1 * y);
+}
+
+/// Three seconds at rest, then a smooth start to 1 m/s on a wide curve, level, 1.2 m above the
+/// origin's ground.
+SE3 BodyAt(double t) {
+  const double s = std::max(0.0, t - 3.0);
+  const double way = s < 2.0 ? 0.25 * s * s : s - 1.0;
+  const double angle = way / 20.0;
+  return {ExpSo3({0.0, 0.0, angle}), {20.0 * std::sin(angle), 20.0 * (1.0 - std::cos(angle)), 0.0}};
+}
+
+ImuSample ImuAt(double t) {
+  const double h = 1e-4;
+  const Eigen::Vector3d acceleration =
+      (BodyAt(t + h).translation - 2.0 * BodyAt(t).translation + BodyAt(t - h).translation) /
+      (h * h);
+  ImuSample sample;
+  sample.time = FromSeconds(t);
+  sample.angular_velocity =
+      LogSo3(BodyAt(t - h).rotation.conjugate() * BodyAt(t + h).rotation) / (2.0 * h);
+  sample.specific_force =
+      BodyAt(t).rotation.conjugate() * (acceleration + Eigen::Vector3d(0, 0, kGravity));
+  return sample;
+}
+
+/// Where the ray meets the ground, or walls 12 m off, by marching and bisection; infinite beyond
+/// 40 m.
+double Cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, bool walls) {
+  const auto clearance = [&](double range) {
+    const Eigen::Vector3d point = origin + range * direction;
+    const double ground = point.z() + 1.7 - Ground(point.x(), point.y());
+    if (!walls) return ground;
+    return std::min({ground, 12.0 - std::abs(point.x()), 12.0 - std::abs(point.y())});
+  };
+  for (double range = 0.5; range < 40.0; range += 0.2) {
+    if (clearance(range) > 0.0) continue;
+    double low = range - 0.2;
+    double high = range;
+    for (int i = 0; i < 20; ++i)
+      (clearance(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
+    return 0.5 * (low + high);
+  }
+  return INFINITY;
+}
+
+LidarScan MakeScan(double start, bool walls) {
+  Random random(static_cast<uint64_t>(start * 10.0 + 0.5));
+  LidarScan scan;
+  scan.stamp = FromSeconds(start);
+  for (int firing = 0; firing < 450; ++firing) {
+    const double time = 0.1 * firing / 450.0;
+    const SE3 pose = BodyAt(start + time);
+    for (int ring = 0; ring < 16; ++ring) {
+      const double azimuth = 2.0 * kPi * firing / 450.0;
+      const double elevation = (-15.0 + 2.0 * ring) * kPi / 180.0;
+      const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
+                                      std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+      const double range = Cast(pose.translation, pose.rotation * direction, walls);
+      if (!std::isfinite(range)) continue;
+      LidarPoint point;
+      point.position = ((range + random.Gaussian(0.0, 0.01)) * direction).cast<float>();
+      point.time = static_cast<float>(time);
+      point.ring = static_cast<uint16_t>(ring);
+      scan.points.push_back(point);
+    }
+  }
+  return scan;
+}
+
+/// Scans are shared by the tests, since casting them costs more than matching them.
+const LidarScan& ScanAt(int index, bool walls) {
+  static std::map<std::pair<int, bool>, LidarScan> scans;
+  auto& scan = scans[{index, walls}];
+  if (scan.points.empty()) scan = MakeScan(0.1 * index, walls);
+  return scan;
+}
+
+RigCalibration Rig(bool with_imu) {
+  RigCalibration rig;
+  rig.gravity = kGravity;
+  if (with_imu) rig.imu.emplace();
+  rig.lidar.emplace();
+  return rig;
+}
+
+std::vector<ScanEstimate> Drive(LidarOdometry& odometry, double seconds, bool walls = false,
+                                double imu_from = 0.0, double imu_gap_from = 1e9,
+                                double imu_gap_to = 1e9) {
+  std::vector<ScanEstimate> estimates;
+  const auto keep = [&](std::vector<ScanEstimate> more) {
+    for (ScanEstimate& estimate : more) estimates.push_back(std::move(estimate));
+  };
+  for (int i = 0; i * 0.005 < seconds; ++i) {
+    const double t = i * 0.005;
+    if (t >= imu_from && !(t > imu_gap_from && t < imu_gap_to)) keep(odometry.AddImu(ImuAt(t)));
+    if (i % 20 == 0) keep(odometry.AddScan(ScanAt(i / 20, walls)));
+  }
+  keep(odometry.Finish());
+  return estimates;
+}
+
+double WorstError(const std::vector<ScanEstimate>& estimates) {
+  double worst = 0.0;
+  for (const ScanEstimate& estimate : estimates) {
+    const SE3 truth = BodyAt(ToSeconds(estimate.stamp));
+    worst = std::max(worst, (truth.translation - estimate.T_world_body.translation).norm());
+  }
+  return worst;
+}
+
+TEST(LidarOdometry, FollowsADriveWithAnImu) {
+  ThreadPool threads(2);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  const auto estimates = Drive(odometry, 10.0);
+  ASSERT_EQ(estimates.size(), 100U);
+  EXPECT_LT(WorstError(estimates), 0.10);
+  EXPECT_TRUE(estimates[15].at_rest);
+  EXPECT_FALSE(estimates.back().at_rest);
+  EXPECT_EQ(estimates.back().leader, "lidar+imu");
+  EXPECT_TRUE(odometry.Notices().empty());
+}
+
+TEST(LidarOdometry, FollowsADriveWithoutAnImu) {
+  ThreadPool threads(2);
+  LidarOdometry odometry({}, Rig(false), &threads);
+  const auto estimates = Drive(odometry, 10.0, true);
+  ASSERT_EQ(estimates.size(), 100U);
+  EXPECT_LT(WorstError(estimates), 0.10);
+}
+
+TEST(LidarOdometry, BridgesAGapInTheImuAndSaysSo) {
+  ThreadPool threads(2);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  const auto estimates = Drive(odometry, 10.0, false, 0.0, 6.0, 8.5);
+  ASSERT_EQ(estimates.size(), 100U);
+  EXPECT_LT(WorstError(estimates), 0.25);
+  ASSERT_EQ(odometry.Notices().size(), 1U);
+  EXPECT_NE(odometry.Notices()[0].find("gap"), std::string::npos);
+}
+
+TEST(LidarOdometry, ScansBeforeTheFirstImuSampleHaveNoPose) {
+  ThreadPool threads(2);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  const auto estimates = Drive(odometry, 3.0, false, 1.5);
+  EXPECT_NEAR(static_cast<double>(estimates.size()), 15.0, 1.0);
+  ASSERT_FALSE(odometry.Notices().empty());
+}
+
+TEST(LidarOdometry, EmptyScansAreBridgedByTheImu) {
+  ThreadPool threads(1);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  std::vector<ScanEstimate> estimates;
+  for (int i = 0; i < 500; ++i) {
+    odometry.AddImu(ImuAt(i * 0.005));
+    if (i % 20 != 0) continue;
+    LidarScan scan;
+    scan.stamp = FromSeconds(i * 0.005);
+    for (ScanEstimate& estimate : odometry.AddScan(scan)) estimates.push_back(std::move(estimate));
+  }
+  for (ScanEstimate& estimate : odometry.Finish()) estimates.push_back(std::move(estimate));
+  ASSERT_FALSE(estimates.empty());
+  EXPECT_EQ(estimates.back().leader, "imu");
+  EXPECT_LT(WorstError(estimates), 0.05);
+}
+
+TEST(LidarOdometry, SamplesInUnitsOfGAreRefused) {
+  ThreadPool threads(1);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  const auto feed = [&] {
+    for (int i = 0; i < 300; ++i) {
+      ImuSample sample = ImuAt(i * 0.005);
+      sample.specific_force /= 9.81;
+      odometry.AddImu(sample);
+    }
+  };
+  EXPECT_THROW(feed(), InputError);
+}
+
+TEST(LidarOdometry, SameBytesForAnyNumberOfThreads) {
+  const auto last_pose = [](int count) {
+    ThreadPool threads(count);
+    LidarOdometry odometry({}, Rig(true), &threads);
+    return Drive(odometry, 4.0).back().T_world_body;
+  };
+  const SE3 one = last_pose(1);
+  const SE3 three = last_pose(3);
+  EXPECT_EQ(one.translation, three.translation);
+  EXPECT_EQ(one.rotation.coeffs(), three.rotation.coeffs());
+}
+
+}  // namespace
+}  // namespace regolith

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "regolith/cloud/voxel_map.h"
+#include "regolith/core/thread_pool.h"
+#include "regolith/geometry/se3.h"
+#include "regolith/registration/point_to_plane.h"
+
+namespace regolith {
+
+struct ScanMatcherOptions {
+  PointToPlaneOptions planes;
+  int max_iterations = 8;
+  double rotation_tolerance = 1e-5;  ///< rad, a smaller step ends the iteration
+  double position_tolerance = 1e-4;  ///< m
+  int min_matches = 50;              ///< fewer leave the prior as it is
+  /// m; a direction that the scan alone leaves less certain than this is called degenerate.
+  double degenerate_sigma = 0.1;
+};
+
+struct ScanMatch {
+  SE3 T_map_body;
+  Matrix6d covariance = Matrix6d::Identity();  ///< [rotation (right), position]
+  bool used_scan = false;  ///< false: too few matches, pose and covariance are the prior's
+  int iterations = 0;
+  int degenerate_directions = 0;  ///< of position, from the scan alone
+  PointToPlaneSystem system;      ///< at the last linearisation
+};
+
+/// The most probable pose given a Gaussian prior and a scan (points in m, body frame): Gauss–Newton
+/// on the sum of the prior's and the planes' squared errors. Directions that the scan does not see
+/// stay as the prior has them.
+ScanMatch MatchScan(Span<const Eigen::Vector3d> points_body, const SE3& prior,
+                    const Matrix6d& prior_covariance, Span<const VoxelMap> maps,
+                    const ScanMatcherOptions& options, ThreadPool* threads);
+
+}  // namespace regolith
