@@ -11,7 +11,7 @@ find_package(embree 3.13 REQUIRED)
 find_package(GDAL 3.6 REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(CLI11 QUIET)
+find_package(CLI11 REQUIRED)
 
 # OpenVINO's C++ package comes inside its Python wheel (scripts/setup.sh puts it into .venv).
 find_program(REGOLITH_VENV_PYTHON python PATHS ${CMAKE_SOURCE_DIR}/.venv/bin NO_DEFAULT_PATH)

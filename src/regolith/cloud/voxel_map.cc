@@ -9,6 +9,65 @@
 #include "regolith/core/random.h"
 
 namespace regolith {
+namespace {
+
+// The 27 voxels around a query, its own first: near points found early let most of the others be
+// skipped.
+constexpr std::array<std::array<int, 3>, 27> NeighbourOffsets() {
+  std::array<std::array<int, 3>, 27> offsets{};
+  size_t place = 0;
+  for (int distance = 0; distance <= 3; ++distance) {
+    for (int x = -1; x <= 1; ++x) {
+      for (int y = -1; y <= 1; ++y) {
+        for (int z = -1; z <= 1; ++z) {
+          if (x * x + y * y + z * z == distance) offsets[place++] = {x, y, z};
+        }
+      }
+    }
+  }
+  return offsets;
+}
+
+constexpr auto kNeighbourOffsets = NeighbourOffsets();
+
+/// The nearest points so far, sorted by distance.
+class NearestList {
+ public:
+  NearestList(int count, float worst) : count_(static_cast<size_t>(count)), worst_(worst) {}
+
+  float worst() const { return worst_; }
+
+  void Offer(float squared_distance, const Eigen::Vector3f* point) {
+    if (squared_distance >= worst_) return;
+    size_t place = size_ < count_ ? size_++ : size_ - 1;
+    for (; place > 0 && distances_[place - 1] > squared_distance; --place) {
+      distances_[place] = distances_[place - 1];
+      points_[place] = points_[place - 1];
+    }
+    distances_[place] = squared_distance;
+    points_[place] = point;
+    if (size_ == count_) worst_ = distances_[count_ - 1];
+  }
+
+  Neighbours Result() const {
+    Neighbours neighbours;
+    neighbours.count = static_cast<int>(size_);
+    for (size_t i = 0; i < size_; ++i) {
+      neighbours.points[i] = points_[i]->cast<double>();
+      neighbours.squared_distances[i] = static_cast<double>(distances_[i]);
+    }
+    return neighbours;
+  }
+
+ private:
+  size_t count_;
+  float worst_;
+  size_t size_ = 0;
+  std::array<float, Neighbours::kMost> distances_;
+  std::array<const Eigen::Vector3f*, Neighbours::kMost> points_;
+};
+
+}  // namespace
 
 void VoxelMapOptions::Check() const {
   REGOLITH_CHECK(voxel_size > 0.0, "voxel_size=", voxel_size);
@@ -71,38 +130,30 @@ Neighbours VoxelMap::Nearest(const Eigen::Vector3d& query, int count, double max
   const auto most = static_cast<size_t>(options_.max_points_per_voxel);
   const auto centre = VoxelOf(query, inverse_size_);
   const Eigen::Vector3f query_float = query.cast<float>();
-  std::array<float, Neighbours::kMost> distances;
-  std::array<const Eigen::Vector3f*, Neighbours::kMost> found;
-  int size = 0;
-  auto worst = static_cast<float>(max_distance * max_distance);
-  for (int64_t x = centre.x() - 1; x <= centre.x() + 1; ++x) {
-    for (int64_t y = centre.y() - 1; y <= centre.y() + 1; ++y) {
-      for (int64_t z = centre.z() - 1; z <= centre.z() + 1; ++z) {
-        const uint32_t* const voxel = Find(PackVoxel(x, y, z));
-        if (voxel == nullptr) continue;
-        const Eigen::Vector3f* const begin = points_.data() + *voxel * most;
-        for (const Eigen::Vector3f* point = begin; point != begin + counts_[*voxel]; ++point) {
-          const float distance = (*point - query_float).squaredNorm();
-          if (distance >= worst) continue;
-          int place = size < count ? size++ : size - 1;
-          for (; place > 0 && distances[static_cast<size_t>(place - 1)] > distance; --place) {
-            distances[static_cast<size_t>(place)] = distances[static_cast<size_t>(place - 1)];
-            found[static_cast<size_t>(place)] = found[static_cast<size_t>(place - 1)];
-          }
-          distances[static_cast<size_t>(place)] = distance;
-          found[static_cast<size_t>(place)] = point;
-          if (size == count) worst = distances[static_cast<size_t>(count - 1)];
-        }
-      }
+  // Distance to the nearer and to the farther neighbouring voxel along each axis, squared.
+  const Eigen::Vector3d inside = query - options_.voxel_size * centre.cast<double>();
+  const Eigen::Array3f below = inside.array().square().cast<float>();
+  const Eigen::Array3f above = (options_.voxel_size - inside.array()).square().cast<float>();
+  NearestList nearest(count, static_cast<float>(max_distance * max_distance));
+  for (const auto& [x, y, z] : kNeighbourOffsets) {
+    const float gap = (x < 0   ? below[0]
+                       : x > 0 ? above[0]
+                               : 0.0F) +
+                      (y < 0   ? below[1]
+                       : y > 0 ? above[1]
+                               : 0.0F) +
+                      (z < 0   ? below[2]
+                       : z > 0 ? above[2]
+                               : 0.0F);
+    if (gap >= nearest.worst()) continue;
+    const uint32_t* const voxel = Find(PackVoxel(centre.x() + x, centre.y() + y, centre.z() + z));
+    if (voxel == nullptr) continue;
+    const Eigen::Vector3f* const begin = points_.data() + *voxel * most;
+    for (const Eigen::Vector3f* point = begin; point != begin + counts_[*voxel]; ++point) {
+      nearest.Offer((*point - query_float).squaredNorm(), point);
     }
   }
-  Neighbours neighbours;
-  neighbours.count = size;
-  for (size_t i = 0; i < static_cast<size_t>(size); ++i) {
-    neighbours.points[i] = found[i]->cast<double>();
-    neighbours.squared_distances[i] = static_cast<double>(distances[i]);
-  }
-  return neighbours;
+  return nearest.Result();
 }
 
 std::vector<Eigen::Vector3d> VoxelMap::Points() const {

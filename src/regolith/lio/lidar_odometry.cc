@@ -184,16 +184,20 @@ ScanMatch LidarOdometry::Match(const std::vector<Eigen::Vector3d>& points_body, 
   return MatchScan(thinned, prior, covariance, maps_, options_.matcher, threads_);
 }
 
-std::vector<Eigen::Vector3d> LidarOdometry::ExtendMap(
-    const std::vector<Eigen::Vector3d>& points_body, const SE3& T_world_body) {
-  std::vector<Eigen::Vector3d> points_world;
-  points_world.reserve(points_body.size());
-  for (const Eigen::Vector3d& point : points_body) points_world.push_back(T_world_body * point);
+std::vector<MapPoint> LidarOdometry::ExtendMap(const LidarScan& scan,
+                                               const std::vector<Eigen::Vector3d>& points_body,
+                                               const SE3& T_world_body) {
+  std::vector<Eigen::Vector3d> points_world(points_body.size());
+  std::vector<MapPoint> map_points(points_body.size());
+  for (size_t i = 0; i < points_body.size(); ++i) {
+    points_world[i] = T_world_body * points_body[i];
+    map_points[i] = {points_world[i].cast<float>(), scan.points[i].intensity};
+  }
   for (VoxelMap& map : maps_) {
     map.Add(points_world);
     if (scans_ % kScansBetweenRemovals == 0) map.RemoveFarFrom(T_world_body.translation);
   }
-  return points_world;
+  return map_points;
 }
 
 ScanEstimate LidarOdometry::EstimateInertial(const LidarScan& scan) {
@@ -219,7 +223,7 @@ ScanEstimate LidarOdometry::EstimateInertial(const LidarScan& scan) {
   estimate.T_world_body = corrected * (predicted.Inverse() * PoseAt(motion, scan.stamp));
   estimate.covariance = filter_->PoseCovariance();
   estimate.leader = estimate.match.used_scan ? "lidar+imu" : "imu";
-  estimate.points_world = ExtendMap(points_body, corrected);
+  estimate.points = ExtendMap(scan, points_body, corrected);
   stopwatch.Lap("map");
   estimate.stages = stopwatch.stages();
 
@@ -265,7 +269,7 @@ ScanEstimate LidarOdometry::EstimateLidarOnly(const LidarScan& scan) {
   }
   last_ = StampedPose{middle, pose};
   estimate.T_world_body = pose * ExpSe3(velocity_body_ * SecondsBetween(middle, scan.stamp));
-  estimate.points_world = ExtendMap(points_body, pose);
+  estimate.points = ExtendMap(scan, points_body, pose);
   stopwatch.Lap("map");
   estimate.stages = stopwatch.stages();
   return estimate;

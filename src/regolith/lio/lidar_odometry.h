@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "regolith/cloud/map_point.h"
 #include "regolith/cloud/voxel_map.h"
 #include "regolith/core/stopwatch.h"
 #include "regolith/core/thread_pool.h"
@@ -28,8 +29,7 @@ struct ScanEstimate {
   std::string leader;                      ///< "lidar+imu", "imu", "lidar", "guess"
   bool at_rest = false;
   ScanMatch match;
-  std::vector<Eigen::Vector3d>
-      points_world;  ///< m, all points of the scan without motion distortion
+  std::vector<MapPoint> points;  ///< world, all of the scan without motion distortion
   std::vector<StageTime> stages;
 };
 
@@ -70,8 +70,9 @@ class LidarOdometry {
   std::optional<ImuStatistics> RestStatistics(TimeNs time) const;
   ScanMatch Match(const std::vector<Eigen::Vector3d>& points_body, const SE3& prior,
                   const Matrix6d& covariance);
-  std::vector<Eigen::Vector3d> ExtendMap(const std::vector<Eigen::Vector3d>& points_body,
-                                         const SE3& T_world_body);
+  std::vector<MapPoint> ExtendMap(const LidarScan& scan,
+                                  const std::vector<Eigen::Vector3d>& points_body,
+                                  const SE3& T_world_body);
 
   LidarOdometryOptions options_;
   RigCalibration rig_;

@@ -30,22 +30,25 @@ ScanMatch MatchScan(Span<const Eigen::Vector3d> points_body, const SE3& prior,
   match.covariance = prior_covariance;
   const Matrix6d prior_information = prior_covariance.ldlt().solve(Matrix6d::Identity());
   Matrix6d information = prior_information;
-  for (int i = 0; i < options.max_iterations; ++i) {
-    match.system =
-        LinearizePointToPlane(points_body, match.T_map_body, maps, options.planes, threads);
-    match.iterations = i + 1;
-    if (match.system.matches < options.min_matches) {
-      match.T_map_body = prior;
-      match.degenerate_directions = 3;
-      return match;
+  for (int search = 0; search < options.max_searches; ++search) {
+    const SE3 before = match.T_map_body;
+    const auto planes = FindPlanes(points_body, before, maps, options.planes, threads);
+    match.searches = search + 1;
+    for (int step = 0; step < options.steps_per_search; ++step) {
+      match.system = LinearizePointToPlane(points_body, planes, match.T_map_body, options.planes);
+      if (match.system.matches < options.min_matches) {
+        match.T_map_body = prior;
+        match.degenerate_directions = 3;
+        return match;
+      }
+      information = prior_information + match.system.information;
+      const Vector6d gradient =
+          match.system.gradient + prior_information * Minus(match.T_map_body, prior);
+      match.T_map_body = Plus(match.T_map_body, -information.ldlt().solve(gradient));
     }
-    information = prior_information + match.system.information;
-    const Vector6d gradient =
-        match.system.gradient + prior_information * Minus(match.T_map_body, prior);
-    const Vector6d step = -information.ldlt().solve(gradient);
-    match.T_map_body = Plus(match.T_map_body, step);
-    if (step.head<3>().norm() < options.rotation_tolerance &&
-        step.tail<3>().norm() < options.position_tolerance) {
+    const Vector6d change = Minus(match.T_map_body, before);
+    if (change.head<3>().norm() < options.rotation_tolerance &&
+        change.tail<3>().norm() < options.position_tolerance) {
       break;
     }
   }

@@ -13,9 +13,10 @@ namespace regolith {
 
 struct ScanMatcherOptions {
   PointToPlaneOptions planes;
-  int max_iterations = 8;
-  double rotation_tolerance = 1e-5;  ///< rad, a smaller step ends the iteration
-  double position_tolerance = 1e-4;  ///< m
+  int max_searches = 5;              ///< for the planes of the points
+  int steps_per_search = 2;          ///< Gauss–Newton, with the planes held
+  double rotation_tolerance = 1e-4;  ///< rad, a smaller change by new planes ends the search
+  double position_tolerance = 1e-3;  ///< m
   int min_matches = 50;              ///< fewer leave the prior as it is
   /// m; a direction that the scan alone leaves less certain than this is called degenerate.
   double degenerate_sigma = 0.1;
@@ -25,7 +26,7 @@ struct ScanMatch {
   SE3 T_map_body;
   Matrix6d covariance = Matrix6d::Identity();  ///< [rotation (right), position]
   bool used_scan = false;  ///< false: too few matches, pose and covariance are the prior's
-  int iterations = 0;
+  int searches = 0;
   int degenerate_directions = 0;  ///< of position, from the scan alone
   PointToPlaneSystem system;      ///< at the last linearisation
 };

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -20,54 +20,36 @@ constexpr double kMedianToSigma = 1.4826;
 // Residuals beyond a few standard deviations lose their weight.
 constexpr double kKernelSigmas = 3.0;
 
-struct Match {
-  bool valid = false;
-  double residual = 0.0;
-  double thickness_squared = 0.0;  ///< m², of the neighbourhood across its plane
-  Vector6d jacobian = Vector6d::Zero();
-};
-
 bool IsPlane(const PlaneFit& plane, const PointToPlaneOptions& options) {
   const Eigen::Vector3d spread = plane.variances.cwiseSqrt();
   return spread[0] <= options.max_thickness_ratio * spread[1] &&
          spread[1] >= options.min_width_ratio * spread[2];
 }
 
-std::optional<PlaneFit> FindPlane(const Eigen::Vector3d& point_map, Span<const VoxelMap> maps,
-                                  const PointToPlaneOptions& options) {
+PlaneMatch FindPlane(const Eigen::Vector3d& point_map, Span<const VoxelMap> maps,
+                     const PointToPlaneOptions& options) {
   for (const VoxelMap& map : maps) {
     const Neighbours neighbours = map.Nearest(point_map, options.neighbours, map.voxel_size());
     if (neighbours.count < options.min_neighbours) continue;
     const PlaneFit plane = FitPlane(neighbours.Points());
-    if (IsPlane(plane, options)) return plane;
+    if (IsPlane(plane, options)) return {true, plane.centroid, plane.normal, plane.variances[0]};
   }
-  return std::nullopt;
+  return {};
 }
 
-Match MatchPoint(const Eigen::Vector3d& point_body, const SE3& T_map_body,
-                 Span<const VoxelMap> maps, const PointToPlaneOptions& options) {
-  Match match;
-  const Eigen::Vector3d point_map = T_map_body * point_body;
-  const std::optional<PlaneFit> plane = FindPlane(point_map, maps, options);
-  if (!plane) return match;
-  match.valid = true;
-  match.residual = plane->normal.dot(point_map - plane->centroid);
-  match.thickness_squared = plane->variances[0];
-  // d r / d rotation = nᵀ d(R Exp(φ) p) = (p × Rᵀ n)ᵀ.
-  const Eigen::Vector3d normal_body = T_map_body.rotation.conjugate() * plane->normal;
-  match.jacobian << point_body.cross(normal_body), plane->normal;
-  return match;
-}
-
-double RobustScale(const std::vector<Match>& matches, double floor) {
-  std::vector<double> magnitudes;
-  for (const Match& match : matches) {
-    if (match.valid) magnitudes.push_back(std::abs(match.residual));
-  }
+double RobustScale(std::vector<double> magnitudes, double floor) {
   if (magnitudes.empty()) return floor;
   const auto middle = magnitudes.begin() + static_cast<ptrdiff_t>(magnitudes.size() / 2);
   std::nth_element(magnitudes.begin(), middle, magnitudes.end());
   return std::max(floor, kMedianToSigma * *middle);
+}
+
+// d r / d rotation = nᵀ d(R Exp(φ) p) = (p × Rᵀ n)ᵀ.
+Vector6d Jacobian(const Eigen::Vector3d& point_body, const Eigen::Vector3d& normal,
+                  const SE3& T_map_body) {
+  Vector6d jacobian;
+  jacobian << point_body.cross(T_map_body.rotation.conjugate() * normal), normal;
+  return jacobian;
 }
 
 }  // namespace
@@ -83,30 +65,47 @@ void PointToPlaneOptions::Check() const {
   REGOLITH_CHECK(independence > 0.0 && independence <= 1.0, "independence=", independence);
 }
 
-PointToPlaneSystem LinearizePointToPlane(Span<const Eigen::Vector3d> points_body,
-                                         const SE3& T_map_body, Span<const VoxelMap> maps,
-                                         const PointToPlaneOptions& options, ThreadPool* threads) {
-  std::vector<Match> matches(points_body.size());
+std::vector<PlaneMatch> FindPlanes(Span<const Eigen::Vector3d> points_body, const SE3& T_map_body,
+                                   Span<const VoxelMap> maps, const PointToPlaneOptions& options,
+                                   ThreadPool* threads) {
+  std::vector<PlaneMatch> planes(points_body.size());
   threads->ParallelFor(points_body.size(), kChunkSize, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
-      matches[i] = MatchPoint(points_body[i], T_map_body, maps, options);
+      planes[i] = FindPlane(T_map_body * points_body[i], maps, options);
     }
   });
+  return planes;
+}
+
+PointToPlaneSystem LinearizePointToPlane(Span<const Eigen::Vector3d> points_body,
+                                         Span<const PlaneMatch> planes, const SE3& T_map_body,
+                                         const PointToPlaneOptions& options) {
+  REGOLITH_CHECK(points_body.size() == planes.size(), points_body.size(), " points and ",
+                 planes.size(), " planes");
+  std::vector<double> residuals(points_body.size());
+  std::vector<double> magnitudes;
+  for (size_t i = 0; i < points_body.size(); ++i) {
+    if (!planes[i].valid) continue;
+    residuals[i] = planes[i].normal.dot(T_map_body * points_body[i] - planes[i].centroid);
+    magnitudes.push_back(std::abs(residuals[i]));
+  }
   PointToPlaneSystem system;
   system.points = static_cast<int>(points_body.size());
-  system.scale = RobustScale(matches, options.range_sigma);
+  system.matches = static_cast<int>(magnitudes.size());
+  system.scale = RobustScale(std::move(magnitudes), options.range_sigma);
   const double kernel = kKernelSigmas * system.scale;
   const double variance = system.scale * system.scale;
-  for (const Match& match : matches) {
-    if (!match.valid) continue;
-    const double ratio = match.residual / kernel;
+  for (size_t i = 0; i < points_body.size(); ++i) {
+    if (!planes[i].valid) continue;
+    const double ratio = residuals[i] / kernel;
     const double root = 1.0 / (1.0 + ratio * ratio);
     const double weight = root * root;
-    const double precision = options.independence * weight / (variance + match.thickness_squared);
-    system.information.noalias() += precision * match.jacobian * match.jacobian.transpose();
-    system.gradient += precision * match.residual * match.jacobian;
+    const double precision =
+        options.independence * weight / (variance + planes[i].thickness_squared);
+    const Vector6d jacobian = Jacobian(points_body[i], planes[i].normal, T_map_body);
+    system.information.noalias() += precision * jacobian * jacobian.transpose();
+    system.gradient += precision * residuals[i] * jacobian;
     system.inliers += weight;
-    ++system.matches;
   }
   return system;
 }

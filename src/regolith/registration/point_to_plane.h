@@ -25,14 +25,25 @@ struct PointToPlaneSystem {
   double scale = 0.0;    ///< m, robust standard deviation of the residuals
 };
 
-/// Matches each point (m, body frame) to the plane through its nearest map points and linearises
-/// the residuals r = nᵀ(T p - c) with Geman–McClure weights, whose scale is estimated from the
-/// residuals themselves (1.4826 · median |r|). `maps` hold the same points from fine to coarse
-/// voxels: the first in which the neighbourhood is a plane is taken, so that dense ground is met
-/// locally and the sparse rings of far walls still make planes. Chunks are reduced in order: the
-/// same result for any number of threads.
+/// The plane of the map that a scan's point was matched to.
+struct PlaneMatch {
+  bool valid = false;
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< m, map
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< map
+  double thickness_squared = 0.0;  ///< m², of the neighbourhood across its plane
+};
+
+/// Matches each point (m, body frame) to the plane through its nearest map points. `maps` hold the
+/// same points from fine to coarse voxels: the first in which the neighbourhood is a plane is
+/// taken, so that dense ground is met locally and the sparse rings of far walls still make planes.
+std::vector<PlaneMatch> FindPlanes(Span<const Eigen::Vector3d> points_body, const SE3& T_map_body,
+                                   Span<const VoxelMap> maps, const PointToPlaneOptions& options,
+                                   ThreadPool* threads);
+
+/// Linearises the residuals r = nᵀ(T p - c) with Geman–McClure weights, whose scale is estimated
+/// from the residuals themselves (1.4826 · median |r|). Sums run in the order of the points.
 PointToPlaneSystem LinearizePointToPlane(Span<const Eigen::Vector3d> points_body,
-                                         const SE3& T_map_body, Span<const VoxelMap> maps,
-                                         const PointToPlaneOptions& options, ThreadPool* threads);
+                                         Span<const PlaneMatch> planes, const SE3& T_map_body,
+                                         const PointToPlaneOptions& options);
 
 }  // namespace regolith

@@ -44,6 +44,12 @@ std::vector<Eigen::Vector3d> Scan(const SE3& T_map_body, double sigma, bool flat
   return points;
 }
 
+PointToPlaneSystem Linearize(const std::vector<Eigen::Vector3d>& points, const SE3& pose,
+                             Span<const VoxelMap> maps, ThreadPool* threads) {
+  const auto planes = FindPlanes(points, pose, maps, {}, threads);
+  return LinearizePointToPlane(points, planes, pose, {});
+}
+
 SE3 TruePose() { return {ExpSo3({0.02, -0.03, 0.3}), {0.5, -0.4, 1.2}}; }
 
 TEST(PointToPlane, GaussNewtonConvergesToTheTruePose) {
@@ -54,7 +60,7 @@ TEST(PointToPlane, GaussNewtonConvergesToTheTruePose) {
   offset << 0.01, -0.01, 0.02, 0.15, -0.1, 0.1;
   SE3 pose = Plus(TruePose(), offset);
   for (int i = 0; i < 15; ++i) {
-    const auto system = LinearizePointToPlane(points, pose, map, {}, &threads);
+    const auto system = Linearize(points, pose, map, &threads);
     pose = Plus(pose, -system.information.ldlt().solve(system.gradient));
   }
   EXPECT_LT((pose.translation - TruePose().translation).norm(), 0.02);
@@ -66,13 +72,13 @@ TEST(PointToPlane, OutliersLoseTheirWeight) {
   auto points = Scan(TruePose(), 0.01, false);
   const auto clean = [&] {
     ThreadPool threads(1);
-    return LinearizePointToPlane(points, TruePose(), map, {}, &threads);
+    return Linearize(points, TruePose(), map, &threads);
   }();
   for (size_t i = 0; i < points.size(); i += 5) {
     points[i] = TruePose().Inverse() * (TruePose() * points[i] + Eigen::Vector3d(0.0, 0.0, 0.3));
   }
   ThreadPool threads(1);
-  const auto dirty = LinearizePointToPlane(points, TruePose(), map, {}, &threads);
+  const auto dirty = Linearize(points, TruePose(), map, &threads);
   const Vector6d shift = dirty.information.ldlt().solve(dirty.gradient);
   EXPECT_GT(clean.inliers, dirty.inliers);
   // Unweighted, a fifth of the points 0.3 m too high would pull the pose by 0.06 m.
@@ -82,7 +88,7 @@ TEST(PointToPlane, OutliersLoseTheirWeight) {
 TEST(PointToPlane, FlatGroundLeavesItsThreeDirectionsOpen) {
   const std::vector<VoxelMap> map = GroundMap(true);
   ThreadPool threads(1);
-  const auto system = LinearizePointToPlane(Scan(SE3(), 0.0, true), SE3(), map, {}, &threads);
+  const auto system = Linearize(Scan(SE3(), 0.0, true), SE3(), map, &threads);
   EXPECT_LT(system.information(3, 3), 1e-6 * system.information(5, 5));
   EXPECT_LT(system.information(4, 4), 1e-6 * system.information(5, 5));
   EXPECT_LT(system.information(2, 2), 1e-6 * system.information(0, 0));
@@ -93,8 +99,8 @@ TEST(PointToPlane, SameBytesForAnyNumberOfThreads) {
   const auto points = Scan(TruePose(), 0.02, false);
   ThreadPool one(1);
   ThreadPool three(3);
-  const auto first = LinearizePointToPlane(points, TruePose(), map, {}, &one);
-  const auto second = LinearizePointToPlane(points, TruePose(), map, {}, &three);
+  const auto first = Linearize(points, TruePose(), map, &one);
+  const auto second = Linearize(points, TruePose(), map, &three);
   EXPECT_EQ(first.information, second.information);
   EXPECT_EQ(first.gradient, second.gradient);
 }
@@ -111,7 +117,7 @@ TEST(PointToPlane, ARingAloneMakesNoPlane) {
   std::vector<VoxelMap> map(1, VoxelMap({}));
   map[0].Add(Ring(0.0));
   ThreadPool threads(1);
-  EXPECT_EQ(LinearizePointToPlane(Ring(0.0), SE3(), map, {}, &threads).matches, 0);
+  EXPECT_EQ(Linearize(Ring(0.0), SE3(), map, &threads).matches, 0);
 }
 
 TEST(PointToPlane, RingsApartMakePlanesInACoarserMap) {
@@ -123,8 +129,8 @@ TEST(PointToPlane, RingsApartMakePlanesInACoarserMap) {
     map.Add(Ring(0.6));
   }
   ThreadPool threads(1);
-  const auto fine = LinearizePointToPlane(Ring(0.0), SE3(), {maps.data(), 1}, {}, &threads);
-  const auto both = LinearizePointToPlane(Ring(0.0), SE3(), maps, {}, &threads);
+  const auto fine = Linearize(Ring(0.0), SE3(), {maps.data(), 1}, &threads);
+  const auto both = Linearize(Ring(0.0), SE3(), maps, &threads);
   EXPECT_EQ(fine.matches, 0);
   EXPECT_GT(both.matches, both.points / 2);
 }

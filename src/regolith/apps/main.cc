@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <functional>
+#include <iostream>
+#include <map>
+
+#include "regolith/apps/evaluate.h"
+#include "regolith/apps/info.h"
+#include "regolith/apps/run.h"
+#include "regolith/apps/run_setup.h"
+#ifndef NO_SIMULATE
+#include "regolith/apps/simulate.h"
+#endif
+#include "regolith/core/error.h"
+#include "regolith/core/log.h"
+#include "regolith/core/stop.h"
+#include "regolith/core/version.h"
+
+namespace {
+
+using Command = std::function<int()>;
+
+constexpr int kWrongInput = 2;
+constexpr int kOtherError = 1;
+
+template <typename Arguments>
+void AddOutput(CLI::App* app, Arguments& arguments) {
+  app->add_option("--out", arguments.out, "Folder for the results")->required()->type_name("DIR");
+  app->add_flag("--overwrite", arguments.overwrite, "Write into a folder that is not empty");
+  app->add_flag("--quiet", arguments.quiet, "No progress, errors only");
+}
+
+template <typename Arguments>
+void AddSettings(CLI::App* app, Arguments& arguments) {
+  app->add_option("--config", arguments.config, "YAML file laid over the defaults")
+      ->type_name("FILE");
+  app->add_option("--set", arguments.set,
+                  "One setting, such as lio.scan_voxel_size=0.5; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  app->add_option("--threads", arguments.threads, "Threads; 0 is one for each core")
+      ->check(CLI::Range(0, 256))
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+#ifndef NO_SIMULATE
+void AddSimulate(CLI::App& program, std::map<CLI::App*, Command>& commands) {
+  const auto arguments = std::make_shared<regolith::SimulateArguments>();
+  CLI::App* app =
+      program.add_subcommand("simulate", "Drive a rover over terrain and record its sensors");
+  app->add_option("--scenario", arguments->scenario, "Name (config/scenarios) or YAML file")
+      ->required()
+      ->type_name("NAME");
+  app->add_option("--dem", arguments->dem, "Elevation model: any raster that GDAL reads")
+      ->type_name("FILE");
+  app->add_option("--duration", arguments->duration, "Seconds; the scenario's own where absent")
+      ->type_name("S");
+  app->add_option("--seed", arguments->seed, "Another seed is another world")->type_name("N");
+  app->add_option("--quality", arguments->quality, "full or draft")
+      ->type_name("Q")
+      ->capture_default_str();
+  AddSettings(app, *arguments);
+  AddOutput(app, *arguments);
+  app->footer("Example:\n  regolith simulate --scenario lunar_short --out out/lunar");
+  commands[app] = [arguments] { return regolith::Simulate(*arguments); };
+}
+
+#endif
+void AddRun(CLI::App& program, std::map<CLI::App*, Command>& commands) {
+  const auto arguments = std::make_shared<regolith::RunArguments>();
+  CLI::App* app = program.add_subcommand("run", "Estimate trajectory and map of a recording");
+  app->add_option("recording", arguments->recording,
+                  "ROS 1 bag, folder of `simulate`, EuRoC, KITTI raw drive or odometry sequence")
+      ->required()
+      ->type_name("RECORDING");
+  app->add_option("--rig", arguments->rig,
+                  "Sensors of the rover; not needed where the recording brings it")
+      ->type_name("FILE");
+  app->add_option("--pipeline", arguments->pipeline, "Name (config/pipelines) or YAML file")
+      ->type_name("NAME")
+      ->capture_default_str();
+  app->add_option("--rate", arguments->rate,
+                  "1 feeds the recording at its own pace; 0 as fast as it goes")
+      ->type_name("X");
+  app->add_option("--drop", arguments->drops,
+                  "Drop a topic's messages from START to END seconds; repeatable")
+      ->type_name("TOPIC:START:END")
+      ->allow_extra_args(false);
+  app->add_option("--frame", arguments->frame,
+                  "Frame of the trajectories: imu, lidar, camera, base")
+      ->type_name("F");
+  AddSettings(app, *arguments);
+  AddOutput(app, *arguments);
+  app->footer("Example:\n  regolith run out/lunar --out out/lunar_run");
+  commands[app] = [arguments] { return regolith::Run(*arguments); };
+}
+
+void AddEvaluate(CLI::App& program, std::map<CLI::App*, Command>& commands) {
+  const auto arguments = std::make_shared<regolith::EvaluateArguments>();
+  CLI::App* app =
+      program.add_subcommand("evaluate", "Errors of trajectories against a reference (TUM files)");
+  app->add_option("--reference", arguments->reference, "True trajectory")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("--estimate", arguments->estimates, "Estimated trajectories")
+      ->required()
+      ->type_name("FILE...");
+  app->add_option("--align", arguments->align, "se3, sim3 or none")
+      ->type_name("A")
+      ->capture_default_str();
+  app->add_option("--max-difference", arguments->max_difference,
+                  "Seconds between associated stamps")
+      ->type_name("S")
+      ->capture_default_str();
+  AddOutput(app, *arguments);
+  app->footer(
+      "Example:\n  regolith evaluate --reference out/lunar/ground_truth.tum --estimate "
+      "out/lunar_run/trajectory.tum --out out/error");
+  commands[app] = [arguments] { return regolith::Evaluate(*arguments); };
+}
+
+int RunInfo(const regolith::InfoArguments& arguments) {
+  const regolith::RecordingIdentity identity = regolith::IdentifyRecording(arguments.recording);
+  std::optional<regolith::RigCalibration> rig;
+  std::string source;
+  const bool has_rig =
+      !arguments.rig_file.empty() || !identity.rig_file.empty() || !identity.preset_rig.empty();
+  if (has_rig) rig = regolith::FindRig(identity, arguments.rig_file, &source);
+  return regolith::Info(arguments, rig, identity, std::cout);
+}
+
+void AddInfo(CLI::App& program, std::map<CLI::App*, Command>& commands) {
+  const auto arguments = std::make_shared<regolith::InfoArguments>();
+  CLI::App* app =
+      program.add_subcommand("info", "What a recording holds, and whether a rig fits it");
+  app->add_option("recording", arguments->recording, "As for `run`")
+      ->required()
+      ->type_name("RECORDING");
+  app->add_option("--rig", arguments->rig_file, "Rig to check against the recording")
+      ->type_name("FILE");
+  app->footer("Example:\n  regolith info drive.bag --rig rover.yaml");
+  commands[app] = [arguments] { return RunInfo(*arguments); };
+}
+
+int Dispatch(const std::map<CLI::App*, Command>& commands) {
+  try {
+    for (const auto& [app, command] : commands) {
+      if (app->parsed()) return command();
+    }
+  } catch (const regolith::InputError& error) {
+    regolith::LogError(error.what());
+    return kWrongInput;
+  } catch (const std::exception& error) {
+    regolith::LogError(error.what());
+    return kOtherError;
+  }
+  return kOtherError;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A full disk or a file-size limit shows as a failed write, which names the file.
+  std::signal(SIGXFSZ, SIG_IGN);
+  regolith::InstallStopSignals();
+  CLI::App program("Regolith: lidar-visual-inertial SLAM for planetary rovers", "regolith");
+  program.set_version_flag("--version", regolith::ProgramVersion());
+  program.require_subcommand(1);
+  std::map<CLI::App*, Command> commands;
+#ifndef NO_SIMULATE
+  AddSimulate(program, commands);
+#endif
+  AddRun(program, commands);
+  AddEvaluate(program, commands);
+  AddInfo(program, commands);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : kWrongInput;
+  }
+  return Dispatch(commands);
+}

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/apps/run.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <thread>
+
+#include "regolith/apps/output_folder.h"
+#include "regolith/apps/progress.h"
+#include "regolith/apps/run_outputs.h"
+#include "regolith/apps/run_setup.h"
+#include "regolith/core/log.h"
+#include "regolith/core/stop.h"
+#include "regolith/core/thread_pool.h"
+
+namespace regolith {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kInterrupted = 130;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double ProcessorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+double PeakMegabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// Holds measurements back until they are due, so that a recording runs at a pace.
+class Pacer {
+ public:
+  explicit Pacer(double rate) : rate_(rate) {}
+
+  void Wait(TimeNs time) {
+    if (rate_ <= 0.0) return;
+    if (first_ == 0) first_ = time;
+    std::this_thread::sleep_until(
+        start_ + std::chrono::duration_cast<Clock::duration>(
+                     std::chrono::duration<double>(SecondsBetween(first_, time) / rate_)));
+  }
+
+ private:
+  double rate_;
+  TimeNs first_ = 0;
+  Clock::time_point start_ = Clock::now();
+};
+
+void Keep(std::vector<FrameReport> reports, RunRecord* record) {
+  for (FrameReport& report : reports) record->frames.push_back(std::move(report));
+}
+
+/// Feeds the recording to the system until its end or a request to stop. A failure in the middle is
+/// kept in `failure`, so that what was estimated before it can be written.
+RunRecord Estimate(SensorSource& source, double rate, bool quiet, SlamSystem& system,
+                   std::exception_ptr* failure) {
+  RunRecord record;
+  Progress progress("run", SecondsBetween(source.start_time(), source.end_time()), quiet);
+  Pacer pacer(rate);
+  const Clock::time_point start = Clock::now();
+  const double processor_start = ProcessorSeconds();
+  TimeNs first = 0;
+  TimeNs last = 0;
+  try {
+    for (auto event = source.Next(); event; event = source.Next()) {
+      if (StopRequested()) {
+        record.complete = false;
+        break;
+      }
+      last = EventTime(*event);
+      if (first == 0) first = last;
+      pacer.Wait(last);
+      Keep(system.Process(*event), &record);
+      progress.Update(SecondsBetween(first, last));
+    }
+    Keep(system.Finish(), &record);
+  } catch (...) {
+    record.complete = false;
+    *failure = std::current_exception();
+  }
+  record.recording_seconds = SecondsBetween(first, last);
+  record.wall_seconds = SecondsSince(start);
+  record.cpu_seconds = ProcessorSeconds() - processor_start;
+  record.notices = source.Notices();
+  for (const std::string& notice : system.Notices()) record.notices.push_back(notice);
+  return record;
+}
+
+void PrintResult(const RunArguments& arguments, const SlamSystem& system, const RunRecord& record,
+                 const std::optional<Evaluation>& evaluation) {
+  std::printf("poses             %zu of %zu scans\n", system.trajectory().size(),
+              system.scans_seen());
+  std::printf("distance          %.2f m\n", system.trajectory().Length());
+  if (evaluation) {
+    std::printf("APE RMSE          %.3f m (%.2f %% of the distance)\n", evaluation->ape.rmse,
+                evaluation->percent_of_distance.value_or(0.0));
+  }
+  std::printf("real-time factor  %.1f\n",
+              record.wall_seconds > 0.0 ? record.recording_seconds / record.wall_seconds : 0.0);
+  std::printf("report            %s/report%s.html\n", arguments.out.c_str(),
+              record.complete ? "" : ".partial");
+}
+
+}  // namespace
+
+int Run(const RunArguments& arguments) {
+  const RunSetup setup = PrepareRun(arguments);
+  ThreadPool threads(arguments.threads);
+  SlamSystem system(setup.pipeline, setup.rig, &threads);
+  ReadOptions read;
+  read.imu = system.needs().imu;
+  read.lidar = system.needs().lidar;
+  read.cuts = setup.cuts;
+  const auto source = OpenRecording(setup.identity, setup.rig, read);
+  PrepareOutputFolder(arguments.out, arguments.overwrite);
+
+  std::exception_ptr failure;
+  RunRecord record = Estimate(*source, arguments.rate, arguments.quiet, system, &failure);
+  record.peak_rss_mb = PeakMegabytes();
+  for (const std::string& notice : record.notices) LogWarning(notice);
+  const std::optional<Evaluation> evaluation = EvaluateAgainstTruth(setup, system);
+  if (!failure || !record.frames.empty()) {
+    WriteRunOutputs(arguments.out, setup, system, record, evaluation);
+  }
+  if (failure) std::rethrow_exception(failure);
+  PrintResult(arguments, system, record, evaluation);
+  if (!record.complete)
+    LogWarning("interrupted: the results so far are in files named *.partial.*");
+  return record.complete ? 0 : kInterrupted;
+}
+
+}  // namespace regolith

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/apps/run_report.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace regolith {
+namespace {
+
+std::string Text(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+std::vector<double> SecondsFromStart(const std::vector<FrameReport>& frames) {
+  std::vector<double> seconds;
+  for (const FrameReport& frame : frames) {
+    seconds.push_back(SecondsBetween(frames.front().stamp, frame.stamp));
+  }
+  return seconds;
+}
+
+template <typename Value>
+ReportSeries SeriesOf(const std::string& name, const std::vector<FrameReport>& frames,
+                      Value value) {
+  ReportSeries series{name, SecondsFromStart(frames), {}};
+  for (const FrameReport& frame : frames) series.values.push_back(value(frame));
+  return series;
+}
+
+double TotalMilliseconds(const FrameReport& frame) {
+  double total = 0.0;
+  for (const StageTime& stage : frame.stages) total += stage.milliseconds;
+  return total;
+}
+
+// Truth in the frame of the estimate: the inverse of the alignment that the error was measured
+// with.
+std::vector<StampedPose> TruthInWorld(const Evaluation& evaluation) {
+  const SE3 T_estimate_reference = evaluation.alignment.T_target_source.Inverse();
+  std::vector<StampedPose> poses;
+  for (const StampedPose& pose : evaluation.reference) {
+    poses.push_back({pose.time, T_estimate_reference * pose.T_world_body});
+  }
+  return poses;
+}
+
+void AddError(const Evaluation& evaluation, TimeNs start, ReportData* data) {
+  data->reference = TruthInWorld(evaluation);
+  data->ape = evaluation.ape;
+  ReportSeries error{"error, m", {}, evaluation.ape_m};
+  for (const StampedPose& pose : evaluation.estimate) {
+    error.seconds.push_back(SecondsBetween(start, pose.time));
+  }
+  data->error = error;
+  data->highlights.push_back({"APE RMSE", Text("%.3f m", evaluation.ape.rmse)});
+  if (evaluation.percent_of_distance) {
+    data->highlights.push_back(
+        {"of the distance", Text("%.2f %%", *evaluation.percent_of_distance)});
+  }
+}
+
+void AddMap(const SlamSystem& system, ReportData* data) {
+  const auto& points = system.map_points();
+  const size_t step = points.size() / kReportMapPoints + 1;
+  for (size_t i = 0; i < points.size(); i += step) {
+    data->map.push_back({points[i].position, points[i].position.z()});
+  }
+  data->map_total = points.size();
+}
+
+}  // namespace
+
+ReportData ReportOf(const RunSetup& setup, const SlamSystem& system, const RunRecord& record,
+                    const std::optional<Evaluation>& evaluation) {
+  ReportData data;
+  data.title = setup.identity.path;
+  data.pipeline = setup.pipeline.name;
+  const double factor =
+      record.wall_seconds > 0.0 ? record.recording_seconds / record.wall_seconds : 0.0;
+  data.highlights = {{"distance", Text("%.1f m", system.trajectory().Length())},
+                     {"real-time factor", Text("%.1f ×", factor)}};
+  for (const StampedPose& pose : system.trajectory().poses()) data.estimate.push_back(pose);
+  if (evaluation && !data.estimate.empty()) {
+    AddError(*evaluation, data.estimate.front().time, &data);
+  }
+  data.summary = {{"complete", record.complete ? "yes" : "no: the run was ended early"},
+                  {"recording", Text("%.1f s", record.recording_seconds)},
+                  {"scans", std::to_string(system.scans_seen())},
+                  {"poses", std::to_string(system.trajectory().size())},
+                  {"wall time", Text("%.1f s", record.wall_seconds)},
+                  {"processor time", Text("%.1f s", record.cpu_seconds)},
+                  {"peak memory", Text("%.0f MB", record.peak_rss_mb)},
+                  {"frame", setup.frame}};
+  for (const std::string& notice : record.notices) data.summary.push_back({"notice", notice});
+  data.configuration = ResolvedConfiguration(setup);
+  AddMap(system, &data);
+  for (const StageSummary& stage : SummariseStages(record.frames)) {
+    data.stages.push_back({stage.name, stage.median_ms, stage.p99_ms});
+  }
+  if (!record.frames.empty()) {
+    data.frame_ms = SeriesOf("time a scan, ms", record.frames, TotalMilliseconds);
+    data.status = {SeriesOf("matched points", record.frames,
+                            [](const FrameReport& frame) { return frame.matches; }),
+                   SeriesOf("degenerate directions", record.frames,
+                            [](const FrameReport& frame) { return frame.degenerate_directions; }),
+                   SeriesOf("σ of the position, m", record.frames, [](const FrameReport& frame) {
+                     return std::sqrt(frame.covariance.bottomRightCorner<3, 3>().trace());
+                   })};
+  }
+  return data;
+}
+
+}  // namespace regolith

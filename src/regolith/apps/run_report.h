@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "regolith/apps/run_outputs.h"
+#include "regolith/report/report.h"
+
+namespace regolith {
+
+struct StageSummary {
+  std::string name;
+  double median_ms = 0.0;
+  double p99_ms = 0.0;
+};
+
+/// Median and 99th percentile of each stage over the frames, and of their total.
+std::vector<StageSummary> SummariseStages(const std::vector<FrameReport>& frames);
+
+/// The text of config.yaml.
+std::string ResolvedConfiguration(const RunSetup& setup);
+
+/// The page of one run as plain values.
+ReportData ReportOf(const RunSetup& setup, const SlamSystem& system, const RunRecord& record,
+                    const std::optional<Evaluation>& evaluation);
+
+}  // namespace regolith

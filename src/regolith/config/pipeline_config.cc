@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/config/pipeline_config.h"
+
+#include "regolith/core/error.h"
+
+namespace regolith {
+
+template <typename Archive>
+void Fields(Archive& archive, VoxelMapOptions& map) {
+  archive("voxel_size", map.voxel_size);
+  archive("max_points_per_voxel", map.max_points_per_voxel);
+  archive("radius", map.radius);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, PointToPlaneOptions& planes) {
+  archive("neighbours", planes.neighbours);
+  archive("min_neighbours", planes.min_neighbours);
+  archive("max_thickness_ratio", planes.max_thickness_ratio);
+  archive("min_width_ratio", planes.min_width_ratio);
+  archive("range_sigma", planes.range_sigma);
+  archive("independence", planes.independence);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, ScanMatcherOptions& matcher) {
+  archive("planes", matcher.planes);
+  archive("max_searches", matcher.max_searches);
+  archive("steps_per_search", matcher.steps_per_search);
+  archive("rotation_tolerance", matcher.rotation_tolerance);
+  archive("position_tolerance", matcher.position_tolerance);
+  archive("min_matches", matcher.min_matches);
+  archive("degenerate_sigma", matcher.degenerate_sigma);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, RestDetectionOptions& rest) {
+  archive("min_duration", rest.min_duration);
+  archive("max_gyro_sigma", rest.max_gyro_sigma);
+  archive("max_force_sigma_share", rest.max_force_sigma_share);
+  archive("max_mean_rate", rest.max_mean_rate);
+  archive("max_force_error_share", rest.max_force_error_share);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, InertialFilterOptions& filter) {
+  archive("rest_velocity_sigma", filter.rest_velocity_sigma);
+  archive("moving_velocity_sigma", filter.moving_velocity_sigma);
+  archive("moving_tilt_sigma", filter.moving_tilt_sigma);
+  archive("noise_inflation", filter.noise_inflation);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, LidarOdometryOptions& lio) {
+  archive("imu", lio.imu);
+  archive("map", lio.map);
+  archive("map_levels", lio.map_levels);
+  archive("map_growth", lio.map_growth);
+  archive("scan_voxel_size", lio.scan_voxel_size);
+  archive("matcher", lio.matcher);
+  archive("initialization_window", lio.initialization_window);
+  archive("rest", lio.rest);
+  archive("rest_window", lio.rest_window);
+  archive("rest_max_speed", lio.rest_max_speed);
+  archive("filter", lio.filter);
+  archive("velocity_rotation_sigma", lio.velocity_rotation_sigma);
+  archive("velocity_position_sigma", lio.velocity_position_sigma);
+  archive("max_imu_gap", lio.max_imu_gap);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, MapBuilderOptions& map) {
+  archive("voxel_size", map.voxel_size);
+  archive("max_points", map.max_points);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, PipelineOptions& options) {
+  archive("pipeline", options.name);
+  archive("lio", options.lio);
+  archive("map", options.map);
+}
+
+PipelineOptions LoadPipeline(const YamlDocument& document) {
+  PipelineOptions options;
+  FieldReader reader(document);
+  Fields(reader, options);
+  reader.Finish();
+  try {
+    options.lio.Check();
+    options.map.Check();
+  } catch (const CheckError& error) {
+    throw InputError(document.name(), error.what());
+  }
+  return options;
+}
+
+std::string WritePipeline(const PipelineOptions& options) {
+  FieldWriter writer;
+  PipelineOptions copy = options;
+  Fields(writer, copy);
+  return writer.Text();
+}
+
+}  // namespace regolith

@@ -1,0 +1,310 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/io/bag_source.h"
+
+#include <algorithm>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "regolith/core/check.h"
+#include "regolith/core/error.h"
+#include "regolith/io/point_cloud.h"
+#include "regolith/io/ros1_messages.h"
+#include "regolith/io/topic_filter.h"
+
+namespace regolith {
+namespace {
+
+/// How much a topic's delay between stamp and recording may vary from one message to the next. The
+/// bag is read this far ahead.
+constexpr double kDelayVariation = 0.5;  // s
+
+using Parser = std::function<std::optional<SensorEvent>(MessageBytes, TopicFilter&)>;
+
+/// One topic that is being read.
+struct Stream {
+  std::unique_ptr<BagCursor> cursor;
+  Parser parse;
+  TopicFilter filter;
+  std::deque<SensorEvent> waiting;
+  double time_offset = 0.0;  ///< s, added to its stamps
+  /// Record time minus time of the last message; tells when the next one is to be expected.
+  TimeNs delay = 0;
+};
+
+template <typename Event>
+std::optional<SensorEvent> Unpack(MessageResult<Event> result, TopicFilter& filter) {
+  if (!result.value) {
+    filter.CountDropped(result.problem);
+    return std::nullopt;
+  }
+  return SensorEvent(std::move(*result.value));
+}
+
+std::optional<SensorEvent> UnpackScan(PointCloudResult result, const LidarCalibration& lidar,
+                                      TopicFilter& filter) {
+  if (!result.scan) {
+    filter.CountDropped(result.problem);
+    return std::nullopt;
+  }
+  filter.CountPoints(result.facts.invalid_points);
+  if (result.facts.ring_derived) {
+    filter.Note(Concatenate("no field 'ring': derived from elevation, ", lidar.rings,
+                            " rings between ", lidar.lowest_elevation_deg, " and ",
+                            lidar.highest_elevation_deg, " degrees"));
+  }
+  if (result.facts.time_derived) {
+    filter.Note(Concatenate("no usable field 'time': derived from azimuth, ", lidar.period,
+                            " s a turn from the stamp on"));
+  }
+  if (result.facts.time_missing) {
+    filter.Note("no usable field 'time' and points not in firing order: scans are not deskewed");
+  }
+  if (result.facts.intensity_missing) filter.Note("no field 'intensity': taken as 0");
+  result.scan->stamp = AddSeconds(result.scan->stamp, lidar.time_offset);
+  return SensorEvent(std::move(*result.scan));
+}
+
+Parser CameraParser(const BagSensor& sensor, const CameraCalibration& camera,
+                    const std::string& where) {
+  const bool compressed = sensor.type == "sensor_msgs/CompressedImage";
+  return [=](MessageBytes bytes, TopicFilter& filter) -> std::optional<SensorEvent> {
+    auto result = compressed ? ParseCompressedImage(bytes) : ParseImage(bytes);
+    if (result.value) {
+      result.value->camera = sensor.sensor;
+      result.value->time = AddSeconds(result.value->time, camera.time_offset);
+      CheckImageSize(where, *result.value, camera);
+    }
+    return Unpack(std::move(result), filter);
+  };
+}
+
+Parser MakeParser(const BagSensor& sensor, const RigCalibration& rig, const std::string& where) {
+  if (sensor.sensor == "imu") {
+    return [](MessageBytes bytes, TopicFilter& filter) { return Unpack(ParseImu(bytes), filter); };
+  }
+  if (sensor.sensor == "wheels") {
+    return [](MessageBytes bytes, TopicFilter& filter) {
+      return Unpack(ParseOdometry(bytes), filter);
+    };
+  }
+  if (sensor.sensor == "lidar") {
+    return [lidar = *rig.lidar](MessageBytes bytes, TopicFilter& filter) {
+      return UnpackScan(ParsePointCloud(bytes, lidar), lidar, filter);
+    };
+  }
+  return CameraParser(sensor, rig.cameras.at(sensor.sensor), where);
+}
+
+bool IsWanted(const std::string& sensor, const ReadOptions& options) {
+  if (sensor == "imu") return options.imu;
+  if (sensor == "lidar") return options.lidar;
+  if (sensor == "wheels") return options.wheels;
+  return std::find(options.cameras.begin(), options.cameras.end(), sensor) != options.cameras.end();
+}
+
+class BagSource : public SensorSource {
+ public:
+  BagSource(const std::string& path, const RigCalibration& rig, const ReadOptions& options)
+      : bag_(BagReader::Open(path)) {
+    CheckCuts(options.cuts, rig);
+    for (const BagSensor& sensor : SensorsOf(rig)) {
+      if (IsWanted(sensor.sensor, options)) AddStream(FindTopic(*bag_, sensor), rig, options.cuts);
+    }
+    FindStart(rig);
+  }
+
+  std::optional<SensorEvent> Next() override {
+    while (true) {
+      Stream* const first = EarliestWaiting();
+      if (first != nullptr && !IsSomethingEarlierExpected(EventTime(first->waiting.front()))) {
+        return Pop(first);
+      }
+      Stream* const unread = EarliestUnread();
+      if (unread == nullptr) {
+        if (first == nullptr) return std::nullopt;
+        return Pop(first);
+      }
+      ReadOne(unread);
+    }
+  }
+
+  TimeNs start_time() const override { return start_; }
+  TimeNs end_time() const override { return end_; }
+
+  std::vector<std::string> Notices() const override {
+    std::vector<std::string> notices;
+    for (const auto& stream : streams_) stream->filter.AppendNotices(&notices);
+    return notices;
+  }
+
+ private:
+  void AddStream(const BagSensor& sensor, const RigCalibration& rig,
+                 const std::vector<TopicCut>& cuts) {
+    // A rig may name one topic with /compressed at its end or without; cuts name it as the rig
+    // does.
+    auto stream = std::unique_ptr<Stream>(
+        new Stream{bag_->Cursor(sensor.topic),
+                   MakeParser(sensor, rig, bag_->path() + ": " + sensor.topic),
+                   TopicFilter(sensor.topic, CutsOf(cuts, TopicInRig(sensor, rig), sensor.sensor)),
+                   {},
+                   TimeOffset(sensor.sensor, rig),
+                   0});
+    streams_.push_back(std::move(stream));
+  }
+
+  static void SetDelay(Stream* stream, TimeNs record_time, TimeNs stamp) {
+    stream->delay = record_time - AddSeconds(stamp, stream->time_offset);
+  }
+
+  static double TimeOffset(const std::string& sensor, const RigCalibration& rig) {
+    if (sensor == "lidar") return rig.lidar->time_offset;
+    const auto camera = rig.cameras.find(sensor);
+    return camera == rig.cameras.end() ? 0.0 : camera->second.time_offset;
+  }
+
+  static std::string TopicInRig(const BagSensor& sensor, const RigCalibration& rig) {
+    for (const BagSensor& named : SensorsOf(rig)) {
+      if (named.sensor == sensor.sensor) return named.topic;
+    }
+    return sensor.topic;
+  }
+
+  /// The first stamp of the rig's topics, read or not, so that cuts do not move with what is read.
+  void FindStart(const RigCalibration& rig) {
+    start_ = std::numeric_limits<TimeNs>::max();
+    for (const BagSensor& sensor : SensorsOf(rig)) {
+      const auto cursor = bag_->Cursor(sensor.topic);
+      if (cursor->Done()) continue;
+      if (const auto stamp = HeaderStamp(cursor->Read())) start_ = std::min(start_, *stamp);
+    }
+    TimeNs delay = std::numeric_limits<TimeNs>::min();
+    for (const auto& stream : streams_) {
+      const auto stamp = HeaderStamp(stream->cursor->Read());
+      if (stamp) SetDelay(stream.get(), stream->cursor->record_time(), *stamp);
+      delay = std::max(delay, stream->delay);
+      if (stamp) start_ = std::min(start_, *stamp);
+    }
+    if (streams_.empty() || start_ == std::numeric_limits<TimeNs>::max()) {
+      start_ = end_ = 0;
+      return;
+    }
+    end_ = std::max(start_, bag_->last_record_time() - delay);
+  }
+
+  Stream* EarliestWaiting() const {
+    Stream* earliest = nullptr;
+    for (const auto& stream : streams_) {
+      if (stream->waiting.empty()) continue;
+      if (earliest == nullptr ||
+          EventTime(stream->waiting.front()) < EventTime(earliest->waiting.front())) {
+        earliest = stream.get();
+      }
+    }
+    return earliest;
+  }
+
+  bool IsSomethingEarlierExpected(TimeNs stamp) const {
+    const TimeNs horizon = AddSeconds(stamp, kDelayVariation);
+    return std::any_of(streams_.begin(), streams_.end(), [&](const auto& stream) {
+      return stream->waiting.empty() && !stream->cursor->Done() &&
+             stream->cursor->record_time() - stream->delay <= horizon;
+    });
+  }
+
+  Stream* EarliestUnread() const {
+    Stream* earliest = nullptr;
+    for (const auto& stream : streams_) {
+      if (stream->cursor->Done()) continue;
+      if (earliest == nullptr || stream->cursor->record_time() < earliest->cursor->record_time()) {
+        earliest = stream.get();
+      }
+    }
+    return earliest;
+  }
+
+  void ReadOne(Stream* stream) const {
+    const TimeNs record_time = stream->cursor->record_time();
+    const MessageBytes bytes = stream->cursor->Read();
+    if (const auto stamp = HeaderStamp(bytes)) SetDelay(stream, record_time, *stamp);
+    auto event = stream->parse(bytes, stream->filter);
+    stream->cursor->Advance();
+    if (!event || !stream->filter.Accept(EventTime(*event), start_)) return;
+    if (passed_on_ && EventTime(*event) < *passed_on_) {
+      stream->filter.CountDropped("recorded too long after its stamp to be put in order");
+      return;
+    }
+    stream->waiting.push_back(std::move(*event));
+  }
+
+  std::optional<SensorEvent> Pop(Stream* stream) {
+    SensorEvent event = std::move(stream->waiting.front());
+    stream->waiting.pop_front();
+    passed_on_ = EventTime(event);
+    return event;
+  }
+
+  std::unique_ptr<BagReader> bag_;
+  std::vector<std::unique_ptr<Stream>> streams_;
+  std::optional<TimeNs> passed_on_;
+  TimeNs start_ = 0;
+  TimeNs end_ = 0;
+};
+
+bool Fits(const BagSensor& sensor, const std::string& type) {
+  return std::find(sensor.types.begin(), sensor.types.end(), type) != sensor.types.end();
+}
+
+}  // namespace
+
+std::unique_ptr<SensorSource> OpenBagSource(const std::string& path, const RigCalibration& rig,
+                                            const ReadOptions& options) {
+  return std::make_unique<BagSource>(path, rig, options);
+}
+
+std::vector<BagSensor> SensorsOf(const RigCalibration& rig) {
+  std::vector<BagSensor> sensors;
+  if (rig.imu) sensors.push_back({"imu", rig.imu->topic, {"sensor_msgs/Imu"}, {}});
+  if (rig.lidar) sensors.push_back({"lidar", rig.lidar->topic, {"sensor_msgs/PointCloud2"}, {}});
+  for (const auto& [name, camera] : rig.cameras) {
+    sensors.push_back(
+        {name, camera.topic, {"sensor_msgs/Image", "sensor_msgs/CompressedImage"}, {}});
+  }
+  if (rig.wheels) sensors.push_back({"wheels", rig.wheels->topic, {"nav_msgs/Odometry"}, {}});
+  return sensors;
+}
+
+BagSensor FindTopic(const BagReader& bag, BagSensor sensor) {
+  const auto& topics = bag.topics();
+  const auto find = [&](const std::string& name) {
+    return std::find_if(topics.begin(), topics.end(),
+                        [&](const BagTopic& topic) { return topic.name == name; });
+  };
+  auto found = find(sensor.topic);
+  const bool camera = sensor.types.size() > 1;
+  if (found == topics.end() && camera) found = find(sensor.topic + "/compressed");
+  if (found == topics.end()) {
+    std::string others;
+    for (const BagTopic& topic : topics) {
+      if (Fits(sensor, topic.type)) others += " " + topic.name;
+    }
+    throw InputError(bag.path(), "has no topic " + sensor.topic + " (" + sensor.types.front() +
+                                     ", for " + sensor.sensor + "); " +
+                                     (others.empty() ? "no topic of that type is in it"
+                                                     : "the rig could name one of:" + others));
+  }
+  for (auto topic = found; topic != topics.end() && topic->name == found->name; ++topic) {
+    if (!Fits(sensor, topic->type)) {
+      throw InputError(bag.path(), "topic " + topic->name + " is of type " + topic->type +
+                                       "; expected " + sensor.types.front() + " for " +
+                                       sensor.sensor);
+    }
+  }
+  sensor.topic = found->name;
+  sensor.type = found->type;
+  return sensor;
+}
+
+}  // namespace regolith

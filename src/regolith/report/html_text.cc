@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/report/html_text.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace regolith {
+
+std::string EscapeHtml(std::string_view text) {
+  std::string escaped;
+  for (const char character : text) {
+    switch (character) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += character;
+    }
+  }
+  return escaped;
+}
+
+std::string QuoteScript(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char character : text) {
+    const auto code = static_cast<unsigned char>(character);
+    // "<" could close the script element, as in "</script>".
+    if (code < 0x20 || character == '"' || character == '\\' || character == '<') {
+      std::array<char, 8> buffer{};
+      std::snprintf(buffer.data(), buffer.size(), "\\u%04x", static_cast<unsigned>(code));
+      quoted += buffer.data();
+    } else {
+      quoted += character;
+    }
+  }
+  return quoted + '"';
+}
+
+void AppendNumber(double value, int decimals, std::string* text) {
+  if (!std::isfinite(value)) {
+    *text += "null";
+    return;
+  }
+  std::array<char, 400> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                    std::chars_format::fixed, decimals);
+  std::string_view digits(buffer.data(), static_cast<size_t>(result.ptr - buffer.data()));
+  if (digits.find('.') != std::string_view::npos) {
+    digits = digits.substr(0, digits.find_last_not_of('0') + 1);
+    if (digits.back() == '.') digits.remove_suffix(1);
+  }
+  *text += digits == "-0" ? std::string_view("0") : digits;
+}
+
+}  // namespace regolith

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/system/slam_system.h"
+
+#include "regolith/core/error.h"
+
+namespace regolith {
+namespace {
+
+const RigCalibration& WithLidar(const PipelineOptions& options, const RigCalibration& rig) {
+  if (rig.lidar) return rig;
+  throw InputError("pipeline " + options.name,
+                   "needs a lidar, but the rig has none; add `lidar:` to the rig file");
+}
+
+FrameReport ReportOf(const ScanEstimate& estimate) {
+  FrameReport report;
+  report.stamp = estimate.stamp;
+  report.T_world_body = estimate.T_world_body;
+  report.leader = estimate.leader;
+  report.at_rest = estimate.at_rest;
+  report.points = static_cast<int>(estimate.points.size());
+  report.matches = estimate.match.system.matches;
+  report.inliers = estimate.match.system.inliers;
+  report.residual_scale = estimate.match.system.scale;
+  report.degenerate_directions = estimate.match.degenerate_directions;
+  report.covariance = estimate.covariance;
+  report.stages = estimate.stages;
+  return report;
+}
+
+}  // namespace
+
+SlamSystem::SlamSystem(const PipelineOptions& options, const RigCalibration& rig,
+                       ThreadPool* threads)
+    : needs_{options.lio.imu && rig.imu.has_value(), true},
+      lio_(options.lio, WithLidar(options, rig), threads),
+      map_(options.map) {}
+
+std::vector<FrameReport> SlamSystem::Process(const SensorEvent& event) {
+  if (const auto* sample = std::get_if<ImuSample>(&event)) return Report(lio_.AddImu(*sample));
+  if (const auto* scan = std::get_if<LidarScan>(&event)) {
+    ++scans_seen_;
+    return Report(lio_.AddScan(*scan));
+  }
+  return {};
+}
+
+std::vector<FrameReport> SlamSystem::Finish() { return Report(lio_.Finish()); }
+
+std::vector<FrameReport> SlamSystem::Report(std::vector<ScanEstimate> estimates) {
+  std::vector<FrameReport> reports;
+  for (const ScanEstimate& estimate : estimates) {
+    Stopwatch stopwatch;
+    odometry_.Append({estimate.stamp, estimate.T_world_body});
+    map_.Add(estimate.points);
+    stopwatch.Lap("output_map");
+    reports.push_back(ReportOf(estimate));
+    for (const StageTime& stage : stopwatch.stages()) reports.back().stages.push_back(stage);
+  }
+  return reports;
+}
+
+}  // namespace regolith
