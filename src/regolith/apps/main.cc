@@ -10,9 +10,7 @@
 #include "regolith/apps/info.h"
 #include "regolith/apps/run.h"
 #include "regolith/apps/run_setup.h"
-#ifndef NO_SIMULATE
 #include "regolith/apps/simulate.h"
-#endif
 #include "regolith/core/error.h"
 #include "regolith/core/log.h"
 #include "regolith/core/stop.h"
@@ -46,7 +44,6 @@ void AddSettings(CLI::App* app, Arguments& arguments) {
       ->capture_default_str();
 }
 
-#ifndef NO_SIMULATE
 void AddSimulate(CLI::App& program, std::map<CLI::App*, Command>& commands) {
   const auto arguments = std::make_shared<regolith::SimulateArguments>();
   CLI::App* app =
@@ -68,7 +65,6 @@ void AddSimulate(CLI::App& program, std::map<CLI::App*, Command>& commands) {
   commands[app] = [arguments] { return regolith::Simulate(*arguments); };
 }
 
-#endif
 void AddRun(CLI::App& program, std::map<CLI::App*, Command>& commands) {
   const auto arguments = std::make_shared<regolith::RunArguments>();
   CLI::App* app = program.add_subcommand("run", "Estimate trajectory and map of a recording");
@@ -170,9 +166,7 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", regolith::ProgramVersion());
   program.require_subcommand(1);
   std::map<CLI::App*, Command> commands;
-#ifndef NO_SIMULATE
   AddSimulate(program, commands);
-#endif
   AddRun(program, commands);
   AddEvaluate(program, commands);
   AddInfo(program, commands);

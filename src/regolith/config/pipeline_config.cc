@@ -66,6 +66,7 @@ void Fields(Archive& archive, LidarOdometryOptions& lio) {
   archive("filter", lio.filter);
   archive("velocity_rotation_sigma", lio.velocity_rotation_sigma);
   archive("velocity_position_sigma", lio.velocity_position_sigma);
+  archive("min_imu_rate", lio.min_imu_rate);
   archive("max_imu_gap", lio.max_imu_gap);
 }
 

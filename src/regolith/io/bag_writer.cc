@@ -11,7 +11,7 @@
 #include "regolith/core/check.h"
 #include "regolith/core/error.h"
 #include "regolith/io/atomic_file.h"
-#include "regolith/io/ros1_conversions.h"
+#include "regolith/io/ros1_conversions_internal.h"
 
 namespace regolith {
 namespace {

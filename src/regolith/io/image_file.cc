@@ -31,7 +31,12 @@ std::vector<uint8_t> EncodePng(const Image& image) {
       image.data.size());
   const cv::Mat view(image.height, image.width, CV_8UC1, const_cast<uint8_t*>(image.data.data()));
   std::vector<uint8_t> bytes;
-  const bool encoded = cv::imencode(".png", view, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
+  // Run lengths and Huffman codes alone: sensor noise repeats no longer pattern, and looking for
+  // one costs time and, at this level, bytes (640 x 480 with noise of 3: 8.5 ms and 155 kB, against
+  // 9.5 ms and 179 kB).
+  const bool encoded = cv::imencode(
+      ".png", view, bytes,
+      {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_RLE});
   REGOLITH_CHECK(encoded, "PNG encoder failed");
   return bytes;
 }

@@ -19,8 +19,8 @@ Image ReadImage(const std::string& path);
 /// An 8-bit grey PNG. Throws OutputError.
 void WritePng(const std::string& path, const Image& image);
 
-/// Lossless, compressed lightly (level 1): three times as fast as the usual level for a tenth more
-/// bytes. The same bytes for the same image.
+/// Lossless, compressed lightly (level 1), because time is dearer than space while recording. The
+/// same bytes for the same image.
 std::vector<uint8_t> EncodePng(const Image& image);
 
 /// A PNG or JPEG image; nothing where the bytes are neither.

@@ -10,7 +10,7 @@
 #include <functional>
 #include <map>
 
-#include "regolith/io/ros1_test_messages.h"
+#include "regolith/io/ros1_test_messages_internal.h"
 
 namespace regolith {
 namespace {

@@ -10,7 +10,7 @@
 #include <filesystem>
 
 #include "regolith/core/error.h"
-#include "regolith/io/ros1_conversions.h"
+#include "regolith/io/ros1_conversions_internal.h"
 #include "regolith/io/test_folder.h"
 
 namespace regolith {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Regolith authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "regolith/io/ros1_conversions.h"
+#include "regolith/io/ros1_conversions_internal.h"
 
 #include <cstring>
 

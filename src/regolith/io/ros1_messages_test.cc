@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "regolith/io/ros1_test_messages.h"
+#include "regolith/io/ros1_test_messages_internal.h"
 
 namespace regolith {
 namespace {

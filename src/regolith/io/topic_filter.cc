@@ -28,7 +28,7 @@ bool TopicFilter::Accept(TimeNs stamp, TimeNs recording_start) {
   last_ = stamp;
   const double seconds = SecondsBetween(recording_start, stamp);
   const bool cut = std::any_of(cuts_.begin(), cuts_.end(), [&](const TopicCut& range) {
-    return seconds >= range.start && seconds <= range.end;
+    return seconds >= range.start && seconds < range.end;
   });
   cut_ += cut ? 1 : 0;
   return !cut;

@@ -131,6 +131,14 @@ void LidarOdometry::CheckGravity(const ImuStatistics& statistics) const {
 }
 
 void LidarOdometry::Initialize() {
+  const double rate = static_cast<double>(samples_.size() - 1) /
+                      SecondsBetween(samples_.front().time, samples_.back().time);
+  if (rate < options_.min_imu_rate) {
+    options_.imu = false;
+    start_notice_ = Concatenate("the IMU comes at ", rate, " Hz, below ", options_.min_imu_rate,
+                                " Hz: it is not used, and the world is not level");
+    return;
+  }
   const RestReport report = DetectRest(samples_, rig_.gravity, options_.rest);
   CheckGravity(report.statistics);
   if (!report.at_rest) {

@@ -184,6 +184,21 @@ TEST(LidarOdometry, EmptyScansAreBridgedByTheImu) {
   EXPECT_LT(WorstError(estimates), 0.05);
 }
 
+TEST(LidarOdometry, ASlowImuIsReportedAndNotUsed) {
+  ThreadPool threads(1);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  size_t estimates = 0;
+  for (int i = 0; i < 20; ++i) {
+    for (const auto& made : {odometry.AddImu(ImuAt(0.1 * i)), odometry.AddScan(ScanAt(i, true))}) {
+      estimates += made.size();
+      for (const ScanEstimate& estimate : made) EXPECT_NE(estimate.leader, "lidar+imu");
+    }
+  }
+  EXPECT_EQ(estimates, 20U);
+  ASSERT_EQ(odometry.Notices().size(), 1U);
+  EXPECT_NE(odometry.Notices()[0].find("10 Hz"), std::string::npos) << odometry.Notices()[0];
+}
+
 TEST(LidarOdometry, SamplesInUnitsOfGAreRefused) {
   ThreadPool threads(1);
   LidarOdometry odometry({}, Rig(true), &threads);

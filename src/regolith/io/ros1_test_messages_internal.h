@@ -8,7 +8,7 @@
 
 #include <ros/serialization.h>
 
-#include "regolith/io/ros1_conversions.h"
+#include "regolith/io/ros1_conversions_internal.h"
 
 namespace regolith {
 
