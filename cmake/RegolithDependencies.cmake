@@ -5,7 +5,6 @@
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(spdlog REQUIRED)
-find_package(Ceres 2.1 REQUIRED)
 find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs)
 find_package(embree 3.13 REQUIRED)
 find_package(GDAL 3.6 REQUIRED)
@@ -35,7 +34,7 @@ foreach(library rosbag_storage roscpp_serialization rostime cpp_common roslz4 co
   target_link_libraries(regolith_rosbag INTERFACE ${REGOLITH_LIBRARY_${library}})
 endforeach()
 
-# Debian's Ceres was compiled without AVX: its Eigen objects are aligned to 16 bytes, so ours must be.
+# Debian's libraries that pass Eigen objects (Ceres) were compiled without AVX: 16 bytes of alignment, so ours too.
 add_library(regolith_eigen INTERFACE)
 target_link_libraries(regolith_eigen INTERFACE Eigen3::Eigen)
 target_compile_definitions(regolith_eigen INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
@@ -53,7 +52,6 @@ endif()
 
 if(REGOLITH_TESTS)
   find_package(GTest REQUIRED)
-  find_package(rapidcheck REQUIRED)
   include(GoogleTest)
 endif()
 if(REGOLITH_BENCHMARKS)

@@ -151,6 +151,7 @@ std::vector<StageSummary> SummariseStages(const std::vector<FrameReport>& frames
   }
   stages.emplace_back("total", totals);
   std::vector<StageSummary> summaries;
+  summaries.reserve(stages.size());
   for (const auto& [name, values] : stages) {
     summaries.push_back({name, Quantile(values, 0.5), Quantile(values, 0.99)});
   }

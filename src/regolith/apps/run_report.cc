@@ -16,6 +16,7 @@ std::string Text(const char* format, double value) {
 
 std::vector<double> SecondsFromStart(const std::vector<FrameReport>& frames) {
   std::vector<double> seconds;
+  seconds.reserve(frames.size());
   for (const FrameReport& frame : frames) {
     seconds.push_back(SecondsBetween(frames.front().stamp, frame.stamp));
   }

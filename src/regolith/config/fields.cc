@@ -36,16 +36,22 @@ YAML::Node Parse(const std::string& text, const std::string& name) {
   }
 }
 
+/// The text of a key. YAML has keys of any kind; none but text is ever looked for.
+std::string KeyText(const YAML::Node& key, const std::string& name) {
+  if (key.IsScalar()) return key.Scalar();
+  throw InputError(Concatenate(name, ":", key.Mark().line + 1), "expected text as the key");
+}
+
 // Maps are merged key by key; a value keeps the mark of the file it came from.
-YAML::Node Merged(const YAML::Node& below, const YAML::Node& above) {
+YAML::Node Merged(const YAML::Node& below, const YAML::Node& above, const std::string& name) {
   if (!below.IsMap() || !above.IsMap()) return above;
   YAML::Node result(YAML::NodeType::Map);
   for (const auto& item : below) {
-    const auto key = item.first.as<std::string>();
-    result[key] = above[key].IsDefined() ? Merged(item.second, above[key]) : item.second;
+    const std::string key = KeyText(item.first, name);
+    result[key] = above[key].IsDefined() ? Merged(item.second, above[key], name) : item.second;
   }
   for (const auto& item : above) {
-    const auto key = item.first.as<std::string>();
+    const std::string key = KeyText(item.first, name);
     if (!below[key].IsDefined()) result[key] = item.second;
   }
   return result;
@@ -126,7 +132,7 @@ const std::string& YamlDocument::name() const { return node_->name; }
 YamlDocument YamlDocument::Empty(const std::string& name) { return FromText("", name); }
 
 void YamlDocument::Overlay(const YamlDocument& other) {
-  node_->yaml = Merged(node_->yaml, other.node_->yaml);
+  node_->yaml = Merged(node_->yaml, other.node_->yaml, other.node_->name);
   node_->name = other.node_->name;
 }
 
@@ -139,7 +145,7 @@ void YamlDocument::Set(const std::string& assignment) {
   std::string key = assignment.substr(0, equals);
   // Built from the inside out: {a: {b: value}}.
   for (size_t dot = key.rfind('.'); dot != std::string::npos; dot = key.rfind('.')) {
-    text = "{" + key.substr(dot + 1) + ": " + text + "}";
+    text = Concatenate("{", key.substr(dot + 1), ": ", text, "}");
     key.resize(dot);
   }
   const std::string name = node_->name;
@@ -154,9 +160,8 @@ std::optional<std::string> YamlDocument::Take(const std::string& key) {
     throw InputError(Concatenate(node_->name, ":", value.Mark().line + 1),
                      key + ": expected one value");
   }
-  const std::string text = value.Scalar();
   node_->yaml.remove(key);
-  return text;
+  return value.Scalar();
 }
 
 struct FieldReader::Implementation {
@@ -266,13 +271,15 @@ bool FieldReader::Has(const char* key) const { return implementation_->Find(key)
 
 std::vector<std::string> FieldReader::Keys() const {
   std::vector<std::string> keys;
-  for (const auto& item : implementation_->node) keys.push_back(item.first.as<std::string>());
+  for (const auto& item : implementation_->node) {
+    keys.push_back(KeyText(item.first, implementation_->file));
+  }
   return keys;
 }
 
 void FieldReader::Finish() {
   for (const auto& item : implementation_->node) {
-    const auto key = item.first.as<std::string>();
+    const std::string key = KeyText(item.first, implementation_->file);
     const std::set<std::string>& known = implementation_->known;
     if (known.count(key) != 0) continue;
     implementation_->FailAt(item.first, key,
@@ -367,6 +374,11 @@ void FieldWriter::operator()(const char* key, SE3& value) {
     implementation_->Line("  - " + implementation_->List(numbers, NumberText));
   }
 }
+
+void FieldWriter::Empty(const char* key, const char* brackets) {
+  implementation_->Line(std::string(key) + ": " + brackets);
+}
+std::string FieldWriter::Quoted(const std::string& name) { return QuotedText(name); }
 
 void FieldWriter::Begin(const char* key) {
   implementation_->Line(std::string(key) + ":");

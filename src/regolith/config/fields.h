@@ -178,6 +178,7 @@ class FieldWriter {
 
   template <typename Struct>
   void operator()(const char* key, std::vector<Struct>& value) {
+    if (value.empty()) return Empty(key, "[]");
     BeginList(key);
     for (Struct& item : value) {
       BeginItem();
@@ -189,8 +190,9 @@ class FieldWriter {
 
   template <typename Struct>
   void operator()(const char* key, std::map<std::string, Struct>& value) {
+    if (value.empty()) return Empty(key, "{}");
     Begin(key);
-    for (auto& [name, item] : value) (*this)(name.c_str(), item);
+    for (auto& [name, item] : value) (*this)(Quoted(name).c_str(), item);
     End();
   }
 
@@ -198,6 +200,10 @@ class FieldWriter {
   std::string Text() const;
 
  private:
+  /// A map or list without items: nothing behind the key would read back as null.
+  void Empty(const char* key, const char* brackets);
+  /// A name from outside, quoted where YAML would take it for something else.
+  static std::string Quoted(const std::string& name);
   void Begin(const char* key);
   void BeginItem();
   void End();

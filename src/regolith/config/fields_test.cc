@@ -98,6 +98,18 @@ TEST(Fields, WrittenTextReadsBackAsTheSame) {
   EXPECT_EQ(copy.named.at("rear").radius, 0.4);
 }
 
+TEST(Fields, EmptyListsAndNamesThatNeedQuotesReadBack) {
+  RoverOptions options;
+  FieldWriter empty;
+  Fields(empty, options);
+  EXPECT_TRUE(Read(YamlDocument::FromText(empty.Text(), "rover.yaml")).named.empty());
+  options.named["front: [left]"] = {0.4, "front"};
+  FieldWriter writer;
+  Fields(writer, options);
+  const RoverOptions copy = Read(YamlDocument::FromText(writer.Text(), "rover.yaml"));
+  EXPECT_EQ(copy.named.at("front: [left]").radius, 0.4);
+}
+
 TEST(Fields, UnknownKeysAreRefusedWithFileLineAndTheNearestKey) {
   EXPECT_THAT(ErrorOf("speed: 0.5\nwheel:\n  radios: 0.2\n"),
               AllOf(HasSubstr("rover.yaml:3"), HasSubstr("wheel.radios"), HasSubstr("`radius`")));
@@ -112,6 +124,9 @@ TEST(Fields, ValuesOfAnotherTypeAreRefused) {
   EXPECT_THAT(ErrorOf("list: 7\n"), HasSubstr("list"));
   EXPECT_THAT(ErrorOf("- 7\n"), HasSubstr("key: value"));
   EXPECT_THAT(ErrorOf("a: [\n"), HasSubstr("not valid YAML"));
+  EXPECT_THAT(ErrorOf("speed: 1\n[a, b]: 7\n"),
+              AllOf(HasSubstr(":2"), HasSubstr("text as the key")));
+  EXPECT_THAT(ErrorOf("named: {~: {radius: 1}}\n"), HasSubstr("text as the key"));
 }
 
 TEST(Fields, ReflectedRotationsAreRefused) {

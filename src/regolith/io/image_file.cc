@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/io/image_file.h"
 
+#include <algorithm>
+#include <string_view>
+
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -11,6 +14,17 @@
 #include "regolith/io/text_input.h"
 
 namespace regolith {
+namespace {
+
+/// OpenCV would also try its decoders of rarer formats, which are less tested against damage and
+/// print to the terminal.
+bool IsPngOrJpeg(Span<const uint8_t> bytes) {
+  const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
+                               std::min<size_t>(bytes.size(), 8));
+  return start == "\x89PNG\r\n\x1a\n" || start.substr(0, 3) == "\xff\xd8\xff";
+}
+
+}  // namespace
 
 Image ReadImage(const std::string& path) {
   const std::string bytes = ReadFile(path);
@@ -42,7 +56,7 @@ std::vector<uint8_t> EncodePng(const Image& image) {
 }
 
 std::optional<Image> DecodeImage(Span<const uint8_t> bytes) {
-  if (bytes.empty() || bytes.size() > static_cast<size_t>(INT32_MAX)) return std::nullopt;
+  if (!IsPngOrJpeg(bytes) || bytes.size() > static_cast<size_t>(INT32_MAX)) return std::nullopt;
   const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1,
                         const_cast<uint8_t*>(bytes.data()));
   cv::Mat decoded;

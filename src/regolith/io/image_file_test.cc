@@ -40,6 +40,9 @@ TEST(ImageFile, DamageIsReportedNotCrashedOn) {
     }
   }
   EXPECT_FALSE(DecodeImage({}));
+  // A whole image of 1 x 1, but a portable grey map.
+  const std::string grey_map = "P5\n1 1\n255\n\x40";
+  EXPECT_FALSE(DecodeImage({reinterpret_cast<const uint8_t*>(grey_map.data()), grey_map.size()}));
   WriteFile(folder.Path("a.png"), "no image");
   EXPECT_THROW(ReadImage(folder.Path("a.png")), InputError);
   EXPECT_THROW(ReadImage(folder.Path("b.png")), InputError);

@@ -172,7 +172,9 @@ class CloudConverter {
     }
     LidarScan scan;
     scan.stamp = cloud_.stamp;
-    for (size_t row = 0; row < cloud_.height; ++row) {
+    // Rows without points may be as many as 32 bits count.
+    const size_t rows = cloud_.width == 0 ? 0 : cloud_.height;
+    for (size_t row = 0; row < rows; ++row) {
       for (size_t column = 0; column < cloud_.width; ++column) {
         Add(cloud_.data.data() + row * cloud_.row_step + column * cloud_.point_step, &scan);
       }
@@ -202,12 +204,13 @@ class CloudConverter {
       return;
     }
     if (intensity_ != nullptr) {
-      const double intensity = LoadField(*intensity_, bytes);
-      point.intensity = std::isfinite(intensity) ? static_cast<float>(intensity) : 0.0F;
+      const float intensity = static_cast<float>(LoadField(*intensity_, bytes));
+      point.intensity = std::isfinite(intensity) ? intensity : 0.0F;
     }
     if (ring_ != nullptr) {
-      const double ring = std::clamp(LoadField(*ring_, bytes), 0.0, 65535.0);
-      point.ring = static_cast<uint16_t>(ring);
+      const double ring = LoadField(*ring_, bytes);
+      point.ring =
+          std::isnan(ring) ? uint16_t{0} : static_cast<uint16_t>(std::clamp(ring, 0.0, 65535.0));
     }
     scan->points.push_back(point);
     if (time_ != nullptr) times_.push_back(time);

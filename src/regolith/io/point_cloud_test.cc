@@ -198,5 +198,39 @@ TEST(PointCloud, EmptyCloudIsAScanWithoutPoints) {
   EXPECT_TRUE(result.scan->points.empty());
 }
 
+TEST(PointCloud, ValuesThatItsTypesCannotHoldAreLeftOut) {
+  LidarScan scan = Turn();
+  scan.points.resize(2);
+  sensor_msgs::PointCloud2 cloud = MakeCloud(scan, {{"x", PointField::FLOAT32},
+                                                    {"y", PointField::FLOAT32},
+                                                    {"z", PointField::FLOAT32},
+                                                    {"intensity", PointField::FLOAT64},
+                                                    {"ring", PointField::FLOAT32}});
+  const auto store = [&](const std::string& name, auto value) {
+    for (const PointField& field : cloud.fields) {
+      if (field.name == name) std::memcpy(&cloud.data[field.offset], &value, sizeof(value));
+    }
+  };
+  store("intensity", 1e300);
+  store("ring", std::nanf(""));
+  const auto result = ParsePointCloud(Serialize(cloud), LidarCalibration());
+  ASSERT_TRUE(result.scan);
+  ASSERT_EQ(result.scan->points.size(), 2U);
+  EXPECT_EQ(result.scan->points[0].intensity, 0.0F);
+  EXPECT_EQ(result.scan->points[0].ring, 0);
+  EXPECT_EQ(result.scan->points[1].ring, 1);
+}
+
+TEST(PointCloud, RowsWithoutPointsTakeNoTime) {
+  sensor_msgs::PointCloud2 cloud = MakeCloud(
+      Turn(), {{"x", PointField::FLOAT32}, {"y", PointField::FLOAT32}, {"z", PointField::FLOAT32}});
+  cloud.height = 0xffffffffU;
+  cloud.width = 0;
+  cloud.row_step = 0;
+  const auto result = ParsePointCloud(Serialize(cloud), LidarCalibration());
+  ASSERT_TRUE(result.scan);
+  EXPECT_TRUE(result.scan->points.empty());
+}
+
 }  // namespace
 }  // namespace regolith

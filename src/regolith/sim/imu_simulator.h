@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "regolith/core/random.h"
+#include "regolith/sensor/imu_sample.h"
+#include "regolith/sim/rover_motion.h"
+#include "regolith/sim/scenario_options.h"
+
+namespace regolith {
+
+/// What a perfect IMU measures: body rate and specific force Rᵀ (a - g), gravity (m/s²) along -z.
+ImuSample ExactImu(const MotionState& motion, double gravity);
+
+/// An IMU with white noise and biases that walk (Crassidis 2006: densities over the square root of
+/// the sampling interval).
+class ImuSimulator {
+ public:
+  ImuSimulator(const ImuOptions& options, double gravity, uint64_t seed);
+
+  /// The next sample, at the motion of its time; samples are 1 / rate apart. The stamp is left to
+  /// the caller.
+  ImuSample Measure(const MotionState& motion);
+
+ private:
+  Eigen::Vector3d Gaussian(double sigma);
+
+  ImuOptions options_;
+  double gravity_;
+  Random random_;
+  Eigen::Vector3d gyro_bias_;
+  Eigen::Vector3d accelerometer_bias_;
+};
+
+}  // namespace regolith

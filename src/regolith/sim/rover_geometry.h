@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "regolith/geometry/se3.h"
+#include "regolith/sensor/rig_calibration.h"
+#include "regolith/sim/scenario_options.h"
+
+namespace regolith {
+
+/// Half the distances between the wheels' contact points, m.
+inline constexpr double kHalfWheelbase = 0.42;
+inline constexpr double kHalfTrack = 0.36;
+
+/// Frame `base` lies on the ground between the wheels, x forward, y left, z up.
+SE3 BaseFromImu();
+SE3 BaseFromLidar(const LidarOptions& options);
+/// `camera`: "mono", "left" or "right".
+SE3 BaseFromCamera(const CameraOptions& options, const std::string& camera);
+
+CameraIntrinsics MakeIntrinsics(const CameraOptions& options);
+
+/// What the rig file says: everything but the hidden errors (clock, slip, radius, biases).
+RigCalibration NominalRig(const ScenarioOptions& options);
+
+}  // namespace regolith

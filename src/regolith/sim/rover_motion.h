@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "regolith/core/span.h"
+#include "regolith/geometry/se3.h"
+#include "regolith/sim/ground.h"
+#include "regolith/sim/planar_path.h"
+#include "regolith/sim/scenario_options.h"
+#include "regolith/sim/uniform_spline.h"
+#include "regolith/sim/vibration.h"
+
+namespace regolith {
+
+/// The body's exact motion at one time.
+struct MotionState {
+  SE3 T_world_imu;
+  Eigen::Vector3d v_world_imu = Eigen::Vector3d::Zero();           ///< m/s
+  Eigen::Vector3d a_world_imu = Eigen::Vector3d::Zero();           ///< m/s²
+  Eigen::Vector3d angular_velocity_imu = Eigen::Vector3d::Zero();  ///< rad/s, body frame
+};
+
+/// Time between control points of the motion, s.
+inline constexpr double kMotionInterval = 0.1;
+
+/// The pose of `base` (m, rad) that rests on its four wheels at a place of the plane, in the
+/// frame of `surface`: a plane through the wheels by least squares, as a rocker suspension has it.
+SE3 RestOnWheels(const Surface& surface, const PlanarPose& pose);
+
+/// Steepest of the body's tilt and the ground's own slope over 1 m along the path, rad.
+double SteepestSlope(const Surface& surface, Span<const PlanarPose> path,
+                     const Eigen::Vector2d& offset);
+
+/// The rover's motion: a C⁴ spline through poses that rest on the ground, and vibration on top.
+/// Frame `world`: origin and yaw 0 at the first IMU pose.
+class RoverMotion {
+ public:
+  /// `path` at kMotionInterval, from `offset` (m) of the surface's frame on.
+  RoverMotion(const Surface& surface, Span<const PlanarPose> path, const Eigen::Vector2d& offset,
+              const VibrationOptions& vibration, uint64_t seed);
+
+  /// At `time` s since the start.
+  MotionState At(double time) const;
+  /// Likewise without vibration: what wheels follow.
+  MotionState SmoothAt(double time) const;
+  SE3 PoseAt(double time) const;
+
+  /// Where world's origin lies in the surface's frame, m.
+  const Eigen::Vector3d& origin() const { return origin_; }
+
+ private:
+  // [x y z yaw pitch roll speed]
+  using Spline = UniformSpline<7>;
+
+  static MotionState ToState(const Spline::Value& value);
+
+  Spline spline_;
+  Vibration vibration_;
+  double reference_speed_;
+  Eigen::Vector3d origin_;
+};
+
+}  // namespace regolith

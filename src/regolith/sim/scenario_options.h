@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "regolith/sensor/imu_noise.h"
+#include "regolith/terrain/terrain_options.h"
+
+namespace regolith {
+
+/// How the rover drives: rest, then legs of driving in gentle curves with a stop and a point turn
+/// between them.
+struct DriveOptions {
+  double speed = 0.5;           ///< m/s, nominal; legs run up to 1.2 times as fast
+  double rest = 3.0;            ///< s at rest before the first leg
+  double leg_duration = 16.0;   ///< s of driving between two stops
+  double stop = 0.5;            ///< s at rest before and after a point turn
+  double turn_deg = 40.0;       ///< angle of a point turn, degrees
+  double turn_rate_deg = 20.0;  ///< peak rate of a point turn, degrees/s
+  double curvature = 0.08;      ///< 1/m, of the sharpest curve
+  double max_slope_deg = 15.0;  ///< degrees; the patch is chosen so that the path stays below
+};
+
+/// Where the sun stands, and what the sky adds.
+struct SunOptions {
+  double elevation_deg = 12.0;  ///< above the horizon
+  double azimuth_deg = 65.0;    ///< from the rover's first heading (x) towards y (left)
+  double tau = 0.0;             ///< optical depth of the dust; 0 has no sky light
+};
+
+/// The three cameras; all have these intrinsics.
+struct CameraOptions {
+  int width = 640;                                              ///< pixels
+  int height = 480;                                             ///< pixels
+  double field_of_view_deg = 80.0;                              ///< across
+  double rate = 10.0;                                           ///< Hz
+  double mast = 1.1;                                            ///< m above the ground
+  double pitch_deg = 15.0;                                      ///< degrees down
+  double baseline = 0.12;                                       ///< m, left to right
+  std::vector<double> distortion = {-0.12, 0.03, 4e-4, -3e-4};  ///< k1 k2 p1 p2
+  double vignetting = 0.25;                                     ///< light lost at a corner, share
+  double min_exposure = 0.002;                                  ///< s
+  double max_exposure = 0.020;                                  ///< s
+  double full_well = 10700.0;        ///< electrons at 255 (IMX255: EMVA data sheet)
+  double read_noise = 10.0;          ///< electrons
+  double time_offset = 0.004;        ///< s; stamp = true mid-exposure + this; not in the rig
+  double time_offset_sigma = 0.005;  ///< s; what the rig says of it
+};
+
+struct LidarOptions {
+  int rings = 16;
+  double lowest_deg = -15.0;  ///< elevation of ring 0
+  double highest_deg = 15.0;  ///< elevation of the last ring
+  double rate = 10.0;         ///< turns a second
+  int firings = 1800;         ///< a turn
+  double min_range = 0.5;     ///< m
+  double max_range = 100.0;   ///< m
+  double range_sigma = 0.02;  ///< m
+  double dropout = 0.05;      ///< mean share lost of the rays that meet ground within 30 m
+  double mast = 1.2;          ///< m above the ground
+};
+
+struct ImuOptions {
+  double rate = 200.0;  ///< Hz
+  ImuNoise noise;
+};
+
+/// Shaking of the body at the reference speed; proportional to speed.
+struct VibrationOptions {
+  double acceleration = 0.3;     ///< m/s² RMS, an axis
+  double angular_rate = 0.02;    ///< rad/s RMS, an axis
+  double reference_speed = 0.5;  ///< m/s
+  double min_frequency = 5.0;    ///< Hz
+  double max_frequency = 40.0;   ///< Hz
+};
+
+struct WheelOptions {
+  double rate = 50.0;  ///< Hz
+  /// Slip at 0, 5, 10 and 15 degrees uphill (VIPER tilt bed, Hu et al. 2024).
+  std::vector<double> slip = {0.025, 0.05, 0.10, 0.35};
+  double slip_spread = 1.0 / 3.0;  ///< standard deviation, share of the slip
+  double turn_error = 0.10;        ///< share of the yaw rate in a point turn
+  double radius_error = 0.01;      ///< share of the wheels' radius
+};
+
+/// How finely the ground is meshed: posts of `spacing` near the path, 4, 8 and 40 times as far
+/// apart outwards.
+struct MeshOptions {
+  double spacing = 0.02;  ///< m; 0.01, 0.02 or 0.04
+  double reach = 160.0;   ///< m, from the path to the mesh's border
+};
+
+/// A simulated drive: everything that a recording depends on, beside the elevation model.
+struct ScenarioOptions {
+  std::string planet = "moon";  ///< "moon" or "mars": photometry and sky
+  double gravity = 1.62;        ///< m/s²
+  double duration = 40.0;       ///< s
+  uint64_t seed = 1;
+  TerrainOptions terrain;
+  DriveOptions drive;
+  SunOptions sun;
+  CameraOptions camera;
+  LidarOptions lidar;
+  ImuOptions imu;
+  VibrationOptions vibration;
+  WheelOptions wheels;
+  MeshOptions mesh;
+
+  /// Throws InputError that names the key, the value and what was expected.
+  void Check() const;
+};
+
+}  // namespace regolith

@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/terrain/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "regolith/core/random.h"
+#include "regolith/terrain/albedo.h"
+#include "regolith/terrain/craters.h"
+#include "regolith/terrain/dem.h"
+#include "regolith/terrain/fractal_noise.h"
+#include "regolith/terrain/slope_statistics.h"
+
+namespace regolith {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+constexpr int kFitSamples = 6000;
+// Posts carry waves from twice their spacing on, and craters that span four of them.
+constexpr double kWavelengthsPerPost = 2.0;
+constexpr double kCraterPosts = 4.0;
+// A mesh reaches beyond the box of the path.
+constexpr double kSurroundings = 200.0;      // m
+constexpr double kLargestSearchBox = 400.0;  // m, half of it
+
+// Relief and craters of the statistics; `largest` bounds both, for a model that has the rest.
+class Statistical {
+ public:
+  Statistical(const TerrainOptions& options, uint64_t seed, const Eigen::AlignedBox2d& box)
+      : relief_(StreamSeed(seed, "relief"), options.relief.longest_wavelength,
+                options.relief.shortest_wavelength, options.relief.hurst),
+        craters_(options.craters, StreamSeed(seed, "craters"), box, kSurroundings) {
+    FitRelief(options.relief, box);
+  }
+
+  double Relief(double x, double y, double spacing) const {
+    return relief_scale_ * relief_.At(x, y, kWavelengthsPerPost * spacing);
+  }
+  double Craters(double x, double y, double spacing) const {
+    return craters_.Height(x, y, kCraterPosts * spacing);
+  }
+  double Height(double x, double y, double spacing) const {
+    return Relief(x, y, spacing) + Craters(x, y, spacing);
+  }
+
+ private:
+  // Craters are part of the measured slopes: the relief gets what they leave. The figure grows
+  // with the scale, so bisection finds it.
+  void FitRelief(const ReliefOptions& options, const Eigen::AlignedBox2d& box) {
+    const double target = std::tan(options.slope_deg * kDegree);
+    double low = 0.0;
+    double high = 4.0 * target;
+    for (int i = 0; i < 14; ++i) {
+      relief_scale_ = 0.5 * (low + high);
+      const HeightFunction height = [this](double x, double y) { return Height(x, y, 0.05); };
+      const double figure = options.statistic == SlopeStatistic::kRms
+                                ? RmsDeviation(height, box, 1.0, kFitSamples)
+                                : std::tan(MedianSlope(height, box, 1.0, kFitSamples));
+      (figure > target ? high : low) = relief_scale_;
+    }
+  }
+
+  FractalNoise relief_;
+  CraterField craters_;
+  double relief_scale_ = 1.0;
+};
+
+class GeneratedSurface : public Surface {
+ public:
+  GeneratedSurface(const TerrainOptions& options, uint64_t seed, const Eigen::AlignedBox2d& box)
+      : box_(box),
+        statistical_(options, seed, box),
+        albedo_(options.albedo, StreamSeed(seed, "albedo")) {}
+
+  double Height(double x, double y, double spacing) const override {
+    return statistical_.Height(x, y, spacing);
+  }
+  double Albedo(double x, double y, double spacing) const override {
+    return albedo_.At(x, y, kWavelengthsPerPost * spacing);
+  }
+  bool Known(double x, double y, double margin) const override {
+    return box_.contains(Eigen::AlignedBox2d(Eigen::Vector2d(x - margin, y - margin),
+                                             Eigen::Vector2d(x + margin, y + margin)));
+  }
+  Eigen::AlignedBox2d box() const override { return box_; }
+
+ private:
+  Eigen::AlignedBox2d box_;
+  Statistical statistical_;
+  AlbedoField albedo_;
+};
+
+Eigen::AlignedBox2d SearchBox(const Dem& dem) {
+  const Eigen::Vector2d half =
+      dem.half_size().cwiseMin(Eigen::Vector2d::Constant(kLargestSearchBox));
+  return {-half, half};
+}
+
+// Below twice the pixel the model itself says nothing (its effective resolution).
+TerrainOptions BelowPixel(TerrainOptions options, double pixel) {
+  options.relief.longest_wavelength =
+      std::max(2.0 * pixel, 2.0 * options.relief.shortest_wavelength);
+  options.craters.max_diameter = std::min(options.craters.max_diameter, 2.0 * pixel);
+  if (options.craters.max_diameter <= options.craters.min_diameter) options.craters.density = 0.0;
+  return options;
+}
+
+class DemSurface : public Surface {
+ public:
+  DemSurface(const HeightGrid& dem, const TerrainOptions& options, uint64_t seed)
+      : dem_(dem),
+        full_(options, seed, FitBox()),
+        craters_(BelowPixel(options, dem.spacing).craters, StreamSeed(seed, "dem craters"),
+                 SearchBox(dem_), kSurroundings),
+        longest_(2.0 * dem.spacing),
+        albedo_(options.albedo, StreamSeed(seed, "albedo")) {}
+
+  double Height(double x, double y, double spacing) const override {
+    double height = dem_.Height(x, y) + craters_.Height(x, y, kCraterPosts * spacing);
+    // What the statistics have below the pixel: all of their relief without its long waves.
+    if (2.0 * spacing < longest_) {
+      height += full_.Relief(x, y, spacing) - full_.Relief(x, y, 0.5 * longest_);
+    }
+    return height;
+  }
+  double Albedo(double x, double y, double spacing) const override {
+    return albedo_.At(x, y, kWavelengthsPerPost * spacing);
+  }
+  bool Known(double x, double y, double margin) const override {
+    return dem_.HasData(x, y, margin);
+  }
+  Eigen::AlignedBox2d box() const override { return SearchBox(dem_); }
+
+ private:
+  // Enough ground for the slope figure; the scale that it yields holds anywhere.
+  static Eigen::AlignedBox2d FitBox() {
+    return {Eigen::Vector2d(-60.0, -60.0), Eigen::Vector2d(60.0, 60.0)};
+  }
+
+  Dem dem_;
+  Statistical full_;
+  CraterField craters_;
+  double longest_;
+  AlbedoField albedo_;
+};
+
+}  // namespace
+
+std::unique_ptr<Surface> CreateGeneratedSurface(const TerrainOptions& options, uint64_t seed,
+                                                const Eigen::AlignedBox2d& box) {
+  options.Check();
+  return std::make_unique<GeneratedSurface>(options, seed, box);
+}
+
+std::unique_ptr<Surface> CreateDemSurface(const HeightGrid& dem, const TerrainOptions& options,
+                                          uint64_t seed) {
+  options.Check();
+  return std::make_unique<DemSurface>(dem, options, seed);
+}
+
+HeightGrid SampleSurface(const Surface& surface, const Eigen::AlignedBox2d& box, double spacing,
+                         const Eigen::Vector3d& origin) {
+  HeightGrid grid;
+  grid.columns = static_cast<int>(std::ceil(box.sizes().x() / spacing)) + 1;
+  grid.rows = static_cast<int>(std::ceil(box.sizes().y() / spacing)) + 1;
+  grid.spacing = spacing;
+  grid.origin = Eigen::Vector2d(box.min().x(), box.max().y()) - origin.head<2>();
+  grid.heights.resize(static_cast<size_t>(grid.columns) * static_cast<size_t>(grid.rows));
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      const double x = box.min().x() + column * spacing;
+      const double y = box.max().y() - row * spacing;
+      grid.At(column, row) = static_cast<float>(surface.Height(x, y, spacing) - origin.z());
+    }
+  }
+  return grid;
+}
+
+}  // namespace regolith

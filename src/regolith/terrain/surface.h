@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "regolith/terrain/height_grid.h"
+#include "regolith/terrain/terrain_options.h"
+
+namespace regolith {
+
+/// The ground as a function of place. Frame `map`: x east, y north, z up, m.
+class Surface {
+ public:
+  virtual ~Surface() = default;
+
+  /// Height (m) at (x, y), of all relief that posts `spacing` m apart can carry; 0 gives all.
+  virtual double Height(double x, double y, double spacing) const = 0;
+
+  /// Normal albedo at (x, y), likewise.
+  virtual double Albedo(double x, double y, double spacing) const = 0;
+
+  /// Whether the ground within `margin` m of (x, y) is known: inside the elevation model and not
+  /// one of its holes. Generated ground is known everywhere in its box.
+  virtual bool Known(double x, double y, double margin) const = 0;
+
+  /// The box in which a path may be looked for, m.
+  virtual Eigen::AlignedBox2d box() const = 0;
+};
+
+/// Ground generated from statistics: self-affine relief and craters, scaled together so that the
+/// slopes over 1 m have the figure asked for. `box` (m) is where a path may lie.
+std::unique_ptr<Surface> CreateGeneratedSurface(const TerrainOptions& options, uint64_t seed,
+                                                const Eigen::AlignedBox2d& box);
+
+/// Ground of an elevation model, with relief and craters of the same statistics added below its
+/// pixels only. The origin lies in its centre. Throws InputError for a model without data.
+std::unique_ptr<Surface> CreateDemSurface(const HeightGrid& dem, const TerrainOptions& options,
+                                          uint64_t seed);
+
+/// Heights of `surface` over `box` at posts `spacing` m apart; coordinates are shifted by -`origin`
+/// (m, x y z), so that a terrain can be written in the frame of a path.
+HeightGrid SampleSurface(const Surface& surface, const Eigen::AlignedBox2d& box, double spacing,
+                         const Eigen::Vector3d& origin);
+
+}  // namespace regolith

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/terrain/surface.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "regolith/core/error.h"
+#include "regolith/terrain/slope_statistics.h"
+
+namespace regolith {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+
+const Eigen::AlignedBox2d kBox(Eigen::Vector2d(-100, -100), Eigen::Vector2d(100, 100));
+
+HeightFunction HeightOf(const Surface& surface) {
+  return [&surface](double x, double y) { return surface.Height(x, y, 0.0); };
+}
+
+TEST(GeneratedSurface, HasTheMedianSlopeWithCratersCountedIn) {
+  const auto surface = CreateGeneratedSurface(TerrainOptions{}, 5, kBox);
+  const double slope = MedianSlope(HeightOf(*surface), kBox, 1.0, 30000) / kDegree;
+  EXPECT_NEAR(slope, 4.0, 0.25);
+}
+
+TEST(GeneratedSurface, HasTheRmsSlopeOfMars) {
+  TerrainOptions options;
+  options.relief.hurst = 0.6;
+  options.relief.slope_deg = 5.0;
+  options.relief.statistic = SlopeStatistic::kRms;
+  options.craters.density = 0.016;
+  const auto surface = CreateGeneratedSurface(options, 5, kBox);
+  const double slope = std::atan(RmsDeviation(HeightOf(*surface), kBox, 1.0, 30000)) / kDegree;
+  EXPECT_NEAR(slope, 5.0, 0.3);
+}
+
+TEST(GeneratedSurface, KeepsTheHurstExponentOfTheSum) {
+  const auto surface = CreateGeneratedSurface(TerrainOptions{}, 5, kBox);
+  EXPECT_NEAR(HurstExponent(HeightOf(*surface), kBox, 0.25, 4.0, 30000), 0.76, 0.1);
+}
+
+TEST(GeneratedSurface, DiffersBetweenSeedsAndNotBetweenRuns) {
+  const auto first = CreateGeneratedSurface(TerrainOptions{}, 5, kBox);
+  const auto again = CreateGeneratedSurface(TerrainOptions{}, 5, kBox);
+  const auto other = CreateGeneratedSurface(TerrainOptions{}, 6, kBox);
+  EXPECT_EQ(first->Height(3.1, 4.1, 0.0), again->Height(3.1, 4.1, 0.0));
+  EXPECT_NE(first->Height(3.1, 4.1, 0.0), other->Height(3.1, 4.1, 0.0));
+  EXPECT_NE(first->Albedo(3.1, 4.1, 0.0), other->Albedo(3.1, 4.1, 0.0));
+}
+
+TEST(GeneratedSurface, RefusesStatisticsThatMakeNoGround) {
+  TerrainOptions options;
+  options.relief.hurst = 3.0;
+  EXPECT_THROW(CreateGeneratedSurface(options, 1, kBox), InputError);
+}
+
+TEST(DemSurface, AddsReliefOnlyBelowThePixel) {
+  HeightGrid dem;
+  dem.columns = 40;
+  dem.rows = 40;
+  dem.spacing = 5.0;
+  dem.heights.assign(1600, 100.0F);
+  TerrainOptions options;
+  options.craters.density = 0.0;
+  const auto surface = CreateDemSurface(dem, options, 5);
+  const auto generated = CreateGeneratedSurface(options, 5, kBox);
+  const Eigen::AlignedBox2d box(Eigen::Vector2d(-60, -60), Eigen::Vector2d(60, 60));
+  const double fine = RmsDeviation(HeightOf(*surface), box, 0.2, 20000);
+  EXPECT_NEAR(fine, RmsDeviation(HeightOf(*generated), box, 0.2, 20000), 0.15 * fine);
+  EXPECT_LT(RmsDeviation(HeightOf(*surface), box, 40.0, 20000),
+            0.5 * RmsDeviation(HeightOf(*generated), box, 40.0, 20000));
+}
+
+TEST(SampleSurface, IsNorthUpAndShifted) {
+  const auto surface = CreateGeneratedSurface(TerrainOptions{}, 5, kBox);
+  const Eigen::AlignedBox2d box(Eigen::Vector2d(1, 2), Eigen::Vector2d(4, 4));
+  const HeightGrid grid = SampleSurface(*surface, box, 0.5, Eigen::Vector3d(1, 1, 0.2));
+  EXPECT_EQ(grid.columns, 7);
+  EXPECT_EQ(grid.rows, 5);
+  EXPECT_DOUBLE_EQ(grid.origin.x(), 0.0);
+  EXPECT_DOUBLE_EQ(grid.origin.y(), 3.0);
+  EXPECT_FLOAT_EQ(grid.At(2, 1), static_cast<float>(surface->Height(2.0, 3.5, 0.5) - 0.2));
+}
+
+}  // namespace
+}  // namespace regolith
