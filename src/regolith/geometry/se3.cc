@@ -24,7 +24,7 @@ Eigen::Matrix3d LeftJacobianCoupling(const Eigen::Vector3d& rotation_vector,
     const double cosine = std::cos(angle);
     first = (angle - sine) / (square * angle);
     second = (0.5 * square + cosine - 1.0) / (square * square);
-    third = -(angle - sine - square * angle / 6.0) / (square * square * angle);
+    third = (angle - sine - square * angle / 6.0) / (square * square * angle);
   } else {
     first -= square / 120.0;
     second -= square / 720.0;
