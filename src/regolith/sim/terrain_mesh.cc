@@ -18,6 +18,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kFarAway = 5000.0F;         // m
 constexpr float kGoldenAngle = 2.3999632F;  // rad
+constexpr int kSunRays = 4;                 // a post
 // Sun rays start above the post, by this share of the posts' spacing, so that rounding does not
 // let a post shade itself.
 constexpr float kShadowLift = 0.05F;
@@ -96,31 +97,40 @@ class EmbreeMesh : public TerrainMesh {
   }
 
   // The rays of one post go to points spread over the sun's disc (Vogel 1979), so that shadows have
-  // penumbras; all lanes of a packet belong to one post.
+  // penumbras; a packet serves some posts side by side.
   void CastSunlightOnTile(const SunDisc& sun, const MeshTile& tile) {
-    const Eigen::Vector3f across = sun.direction.unitOrthogonal();
-    const Eigen::Vector3f along = sun.direction.cross(across);
+    constexpr int kPostsAtOnce = kPacketSize / kSunRays;
+    Eigen::Vector3f to_sun[kSunRays];
+    for (int ray = 0; ray < kSunRays; ++ray) to_sun[ray] = PointOfDisc(sun, ray);
     const auto end = tile.first_post + static_cast<uint32_t>(tile.posts * tile.posts);
     RayPacket rays;
-    for (uint32_t post = tile.first_post; post < end; ++post) {
-      MeshTiles::Shape& shape = tiles_.shapes[post];
-      const Eigen::Vector3f normal =
-          Eigen::Vector3f(-shape.slope_x, -shape.slope_y, 1.0F).normalized();
-      const Eigen::Vector3f place = tiles_.positions[post] + kShadowLift * tile.spacing * normal;
+    for (uint32_t first = tile.first_post; first < end; first += kPostsAtOnce) {
       for (int lane = 0; lane < kPacketSize; ++lane) {
-        const float radius =
-            sun.radius * std::sqrt((static_cast<float>(lane) + 0.5F) / kPacketSize);
-        const float angle = kGoldenAngle * static_cast<float>(lane);
-        const Eigen::Vector3f direction =
-            (sun.direction + radius * (std::cos(angle) * across + std::sin(angle) * along))
-                .normalized();
-        rays.Set(lane, place, direction, kFarAway);
+        const uint32_t post = first + static_cast<uint32_t>(lane / kSunRays);
+        const uint32_t safe = std::min(post, end - 1);
+        const MeshTiles::Shape& shape = tiles_.shapes[safe];
+        const Eigen::Vector3f normal =
+            Eigen::Vector3f(-shape.slope_x, -shape.slope_y, 1.0F).normalized();
+        rays.Set(lane, tiles_.positions[safe] + kShadowLift * tile.spacing * normal,
+                 to_sun[lane % kSunRays], post < end ? kFarAway : -1.0F);
       }
       Occluded(&rays);
-      float seen = 0.0F;
-      for (const float distance : rays.distance) seen += distance > 0.0F ? 1.0F : 0.0F;
-      shape.sunlit = seen / kPacketSize;
+      for (uint32_t post = first; post < std::min(first + kPostsAtOnce, end); ++post) {
+        const float* distances = rays.distance + (post - first) * kSunRays;
+        const auto seen = std::count_if(distances, distances + kSunRays,
+                                        [](float distance) { return distance > 0.0F; });
+        tiles_.shapes[post].sunlit = static_cast<float>(seen) / kSunRays;
+      }
     }
+  }
+
+  static Eigen::Vector3f PointOfDisc(const SunDisc& sun, int index) {
+    const Eigen::Vector3f across = sun.direction.unitOrthogonal();
+    const Eigen::Vector3f along = sun.direction.cross(across);
+    const float radius = sun.radius * std::sqrt((static_cast<float>(index) + 0.5F) / kSunRays);
+    const float angle = kGoldenAngle * static_cast<float>(index);
+    return (sun.direction + radius * (std::cos(angle) * across + std::sin(angle) * along))
+        .normalized();
   }
 
   void AddTiles() {
