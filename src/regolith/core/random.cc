@@ -71,7 +71,11 @@ int64_t Random::Poisson(double mean) {
   // Knuth 1969: count uniform factors until their product falls below exp(-mean).
   const double limit = std::exp(-mean);
   int64_t count = 0;
-  for (double product = Uniform(); product > limit; product *= Uniform()) ++count;
+  double product = Uniform();
+  while (product > limit) {
+    ++count;
+    product *= Uniform();
+  }
   return count;
 }
 

@@ -37,7 +37,7 @@ std::optional<Alignment> AlignPoints(Span<const Eigen::Vector3d> source,
 
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d singular = svd.singularValues();
+  const Eigen::Vector3d& singular = svd.singularValues();
   // Rank two is enough for a rotation; below it the points lie on one line.
   if (!(singular[1] > singular[0] * 10.0 * std::numeric_limits<double>::epsilon())) {
     return std::nullopt;
