@@ -96,6 +96,18 @@ RunRecord Estimate(SensorSource& source, double rate, bool quiet, SlamSystem& sy
   return record;
 }
 
+/// Sensors of the rig that this pipeline leaves aside, as a line for the user; empty where it uses
+/// all.
+std::string UnusedSensors(const RunSetup& setup, const SensorNeeds& needs) {
+  std::string unused;
+  const auto add = [&](const std::string& name) { unused += (unused.empty() ? "" : ", ") + name; };
+  if (setup.rig.imu && !needs.imu) add("imu");
+  for (const auto& [name, camera] : setup.rig.cameras) add("camera " + name);
+  if (setup.rig.wheels) add("wheels");
+  if (unused.empty()) return "";
+  return "pipeline " + setup.pipeline.name + " does not use: " + unused;
+}
+
 void PrintResult(const RunArguments& arguments, const SlamSystem& system, const RunRecord& record,
                  const std::optional<Evaluation>& evaluation) {
   std::printf("poses             %zu of %zu scans\n", system.trajectory().size(),
@@ -127,6 +139,8 @@ int Run(const RunArguments& arguments) {
   std::exception_ptr failure;
   RunRecord record = Estimate(*source, arguments.rate, arguments.quiet, system, &failure);
   record.peak_rss_mb = PeakMegabytes();
+  const std::string unused = UnusedSensors(setup, system.needs());
+  if (!unused.empty()) record.notices.push_back(unused);
   for (const std::string& notice : record.notices) LogWarning(notice);
   const std::optional<Evaluation> evaluation = EvaluateAgainstTruth(setup, system);
   if (!failure || !record.frames.empty()) {

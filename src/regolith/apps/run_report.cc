@@ -37,19 +37,8 @@ double TotalMilliseconds(const FrameReport& frame) {
   return total;
 }
 
-// Truth in the frame of the estimate: the inverse of the alignment that the error was measured
-// with.
-std::vector<StampedPose> TruthInWorld(const Evaluation& evaluation) {
-  const SE3 T_estimate_reference = evaluation.alignment.T_target_source.Inverse();
-  std::vector<StampedPose> poses;
-  for (const StampedPose& pose : evaluation.reference) {
-    poses.push_back({pose.time, T_estimate_reference * pose.T_world_body});
-  }
-  return poses;
-}
-
 void AddError(const Evaluation& evaluation, TimeNs start, ReportData* data) {
-  data->reference = TruthInWorld(evaluation);
+  data->reference = ReferenceInEstimateFrame(evaluation.reference, evaluation.alignment);
   data->ape = evaluation.ape;
   ReportSeries error{"error, m", {}, evaluation.ape_m};
   for (const StampedPose& pose : evaluation.estimate) {
