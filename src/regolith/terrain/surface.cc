@@ -148,6 +148,24 @@ class DemSurface : public Surface {
 
 }  // namespace
 
+void Surface::Sample(const PostBlock& block, std::vector<double>* heights,
+                     std::vector<float>* albedo) const {
+  heights->clear();
+  albedo->clear();
+  for (int j = 0; j < block.rows; ++j) {
+    for (int i = 0; i < block.columns; ++i) {
+      const double x = block.x + i * block.spacing;
+      const double y = block.y + j * block.spacing;
+      heights->push_back(Height(x, y, block.spacing));
+      albedo->push_back(static_cast<float>(Albedo(x, y, block.spacing)));
+    }
+  }
+}
+
+std::vector<Rock> Surface::Rocks(const Eigen::AlignedBox2d&, double) const { return {}; }
+
+std::vector<RockShape> Surface::RockShapes() const { return {}; }
+
 std::unique_ptr<Surface> CreateGeneratedSurface(const TerrainOptions& options, uint64_t seed,
                                                 const Eigen::AlignedBox2d& box) {
   options.Check();

@@ -4,14 +4,26 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include "regolith/terrain/height_grid.h"
+#include "regolith/terrain/rock.h"
 #include "regolith/terrain/terrain_options.h"
 
 namespace regolith {
+
+/// Posts on a lattice: post (i, j) lies at x + i · spacing, y + j · spacing (m, frame `map`) and has
+/// the index j · columns + i.
+struct PostBlock {
+  double x = 0.0;
+  double y = 0.0;
+  double spacing = 1.0;
+  int columns = 0;
+  int rows = 0;
+};
 
 /// The ground as a function of place. Frame `map`: x east, y north, z up, m.
 class Surface {
@@ -23,6 +35,18 @@ class Surface {
 
   /// Normal albedo at (x, y), likewise.
   virtual double Albedo(double x, double y, double spacing) const = 0;
+
+  /// Heights (m) and normal albedo of all posts of a block, as Height and Albedo give them (to
+  /// 1e-5 m and 1e-4), much faster.
+  virtual void Sample(const PostBlock& block, std::vector<double>* heights,
+                      std::vector<float>* albedo) const;
+
+  /// The rocks at least `min_diameter` m wide whose centres lie in `box` (m). Depends on the place
+  /// alone: boxes that overlap agree, and so do diameters.
+  virtual std::vector<Rock> Rocks(const Eigen::AlignedBox2d& box, double min_diameter) const;
+
+  /// The meshes that Rock::shape counts.
+  virtual std::vector<RockShape> RockShapes() const;
 
   /// Whether the ground within `margin` m of (x, y) is known: inside the elevation model and not
   /// one of its holes. Generated ground is known everywhere in its box.
