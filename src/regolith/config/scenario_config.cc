@@ -67,6 +67,14 @@ void Fields(Archive& archive, SunOptions& sun) {
 }
 
 template <typename Archive>
+void Fields(Archive& archive, LampOptions& lamp) {
+  archive("candela", lamp.candela);
+  archive("beam_deg", lamp.beam_deg);
+  archive("height", lamp.height);
+  archive("side", lamp.side);
+}
+
+template <typename Archive>
 void Fields(Archive& archive, CameraOptions& camera) {
   archive("width", camera.width);
   archive("height", camera.height);
@@ -79,6 +87,10 @@ void Fields(Archive& archive, CameraOptions& camera) {
   archive("vignetting", camera.vignetting);
   archive("min_exposure", camera.min_exposure);
   archive("max_exposure", camera.max_exposure);
+  archive("max_gain", camera.max_gain);
+  archive("lens_blur", camera.lens_blur);
+  archive("motion_blur", camera.motion_blur);
+  archive("noise", camera.noise);
   archive("full_well", camera.full_well);
   archive("read_noise", camera.read_noise);
   archive("time_offset", camera.time_offset);
@@ -97,6 +109,10 @@ void Fields(Archive& archive, LidarOptions& lidar) {
   archive("range_sigma", lidar.range_sigma);
   archive("dropout", lidar.dropout);
   archive("mast", lidar.mast);
+  archive("laser_interval", lidar.laser_interval);
+  archive("divergence_across", lidar.divergence_across);
+  archive("divergence_along", lidar.divergence_along);
+  archive("dust_returns", lidar.dust_returns);
 }
 
 template <typename Archive>
@@ -143,12 +159,14 @@ void Fields(Archive& archive, ScenarioOptions& scenario) {
   archive("terrain", scenario.terrain);
   archive("drive", scenario.drive);
   archive("sun", scenario.sun);
+  archive("lamp", scenario.lamp);
   archive("camera", scenario.camera);
   archive("lidar", scenario.lidar);
   archive("imu", scenario.imu);
   archive("vibration", scenario.vibration);
   archive("wheels", scenario.wheels);
   archive("mesh", scenario.mesh);
+  archive("interreflection", scenario.interreflection);
 }
 
 ScenarioOptions LoadScenario(const YamlDocument& document) {

@@ -5,24 +5,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "regolith/core/check.h"
 #include "regolith/core/random.h"
-#include "regolith/sensor/camera_model.h"
 #include "regolith/sim/rover_geometry.h"
 
 namespace regolith {
 namespace {
 
-constexpr float kFarAway = 5000.0F;
-// Farther ground is finer than a pixel is high: lines between the pixels' are rendered too.
-constexpr float kSupersampleDistance = 7.0F;
-constexpr double kFarShare = 0.25;  // of a line
 // Electrons a second at I/F 1: lunar ground under a low sun (I/F .02) takes 12 ms to its target.
 constexpr double kSensitivity = 1.8e7;
 constexpr double kTargetLevel = 0.42;  // of full scale, of the lit ground
 constexpr double kLitQuantile = 0.75;
 constexpr double kBrightLevel = 1.0;
 constexpr double kBrightQuantile = 0.8;
+constexpr double kStep = 0.5;  // of the way, in stops
+constexpr size_t kRowsAtOnce = 16;
+// Shorter motion than this (pixels) cannot be seen.
+constexpr float kLeastMotion = 0.3F;
+constexpr int kMostMotionTaps = 12;
 
 // Four uniform values of one hash make a bell of unit variance, cut at 3.46 sigma.
 float FastGaussian(uint64_t bits) {
@@ -37,197 +36,158 @@ double Quantile(std::vector<float>* values, double share) {
   const auto place = values->begin() +
                      static_cast<std::ptrdiff_t>(share * static_cast<double>(values->size() - 1));
   std::nth_element(values->begin(), place, values->end());
-  return std::max<double>(*place, 1e-6);
+  return std::max<double>(*place, 1e-7);
 }
 
 }  // namespace
 
-struct CameraSimulator::View {
-  Eigen::Matrix3f R_world_camera;
-  Eigen::Vector3f origin;  // m, world
-  RowCaster caster;
-};
-
-CameraSimulator::CameraSimulator(const CameraOptions& options, const TerrainMesh& mesh,
-                                 const Photometry& photometry, ThreadPool* pool)
-    : options_(options), mesh_(mesh), photometry_(photometry), pool_(pool) {
-  const auto model = CameraModel::Create(MakeIntrinsics(options));
-  const Eigen::Vector2d centre(0.5 * (options.width - 1), 0.5 * (options.height - 1));
-  for (int row = 0; row < options.height; ++row) {
-    for (int column = 0; column < options.width; ++column) {
-      const Eigen::Vector2d pixel(column, row);
-      const auto bearing = model->Unproject(pixel);
-      REGOLITH_CHECK(bearing.has_value(), "pixel ", pixel.transpose(), " has no bearing");
-      bearings_.push_back(bearing->cast<float>());
-      const double radius = (pixel - centre).norm() / centre.norm();
-      vignette_.push_back(static_cast<float>(1.0 - options.vignetting * radius * radius));
-    }
-  }
-  radiance_.resize(bearings_.size());
-}
-
-Image CameraSimulator::Render(const SE3& T_world_camera, uint64_t seed, uint64_t frame) {
-  const Eigen::Vector3f origin = T_world_camera.translation.cast<float>();
-  const View view{T_world_camera.rotation.toRotationMatrix().cast<float>(), origin,
-                  RowCaster(mesh_, origin)};
-  const uint64_t noise_seed = Scramble(seed ^ Scramble(frame));
-  std::fill(radiance_.begin(), radiance_.end(), 0.0F);
-  constexpr size_t kRowsAtOnce = 32;
-  pool_->ParallelFor(static_cast<size_t>(options_.height), kRowsAtOnce,
-                     [&](size_t begin, size_t end, size_t) {
-                       RenderRows(view, static_cast<int>(begin), static_cast<int>(end));
-                     });
-  last_exposure_ = ChooseExposure();
-  return Expose(noise_seed, last_exposure_);
-}
-
-void CameraSimulator::RenderRows(const View& view, int begin, int end) {
-  const int last = std::min(end, options_.height - 1);
-  if (SeesFar(view, begin) || SeesFar(view, last)) {
-    RenderFar(view, begin, end);
-  } else {
-    RenderNear(view, begin, end);
-  }
-}
-
-// A ray a pixel; every second line is cast.
-void CameraSimulator::RenderNear(const View& view, int begin, int end) {
-  RayRow above = CastRow(view, begin);
-  for (int row = begin; row < end; row += 2) {
-    AddRadiance(Radiance(view, above), 1.0F, row);
-    if (row + 1 >= end) break;
-    RayRow below = CastRow(view, std::min(row + 2, options_.height - 1));
-    RayRow between = MakeRow(view, row + 1, 0.0F);
-    view.caster.CastBetween(above, below, &between);
-    AddRadiance(Radiance(view, between), 1.0F, row + 1);
-    above = std::move(below);
-  }
-}
-
-// Lines between the pixels' too, which each give a quarter to the pixels above and below: a tent
-// over two pixels' height.
-void CameraSimulator::RenderFar(const View& view, int begin, int end) {
-  const auto add = [&](const std::vector<float>& radiance, float weight, int row) {
-    if (row >= begin && row < end) AddRadiance(radiance, weight, row);
-  };
-  const int first = std::max(begin - 1, 0);
-  const int last = std::min(end, options_.height - 1);
-  RayRow above = CastRow(view, first);
-  if (first == begin) add(Radiance(view, above), 0.25F, begin);
-  for (int row = first; row <= last; ++row) {
-    if (row >= begin && row < end) add(Radiance(view, above), 0.5F, row);
-    if (row == last) break;
-    RayRow below = CastRow(view, row + 1);
-    RayRow between = MakeRow(view, row, 0.5F);
-    view.caster.CastBetween(above, below, &between);
-    const std::vector<float> radiance = Radiance(view, between);
-    add(radiance, 0.25F, row);
-    add(radiance, 0.25F, row + 1);
-    above = std::move(below);
-  }
-  if (last < end) add(Radiance(view, above), 0.25F, last);
-}
-
-RayRow CameraSimulator::CastRow(const View& view, int row) const {
-  RayRow rays = MakeRow(view, row, 0.0F);
-  view.caster.CastSparse(&rays);
-  return rays;
-}
-
-// Whether a good part of a line sees ground that is finer than its pixels are high.
-bool CameraSimulator::SeesFar(const View& view, int row) const {
-  const RayRow full = MakeRow(view, row, 0.0F);
-  RayRow sparse;
-  constexpr size_t kStep = 16;
-  for (size_t i = 0; i < full.directions.size(); i += kStep) {
-    sparse.directions.push_back(full.directions[i]);
-  }
-  view.caster.CastSparse(&sparse);
-  const auto far = std::count_if(sparse.distances.begin(), sparse.distances.end(),
-                                 [](float d) { return d > kSupersampleDistance && d < kFarAway; });
-  return static_cast<double>(far) > kFarShare * static_cast<double>(sparse.distances.size());
-}
-
-RayRow CameraSimulator::MakeRow(const View& view, int row, float shift) const {
-  const auto width = static_cast<size_t>(options_.width);
-  const Eigen::Vector3f* bearings = &bearings_[static_cast<size_t>(row) * width];
-  // The neighbouring line, for rays between lines.
-  const Eigen::Vector3f* next = row + 1 < options_.height ? bearings + width : bearings;
-  RayRow rays;
-  rays.directions.resize(width);
-  for (size_t i = 0; i < width; ++i) {
-    const Eigen::Vector3f bearing = bearings[i] + shift * (next[i] - bearings[i]);
-    rays.directions[i] = (view.R_world_camera * bearing).normalized();
-  }
-  return rays;
-}
-
-std::vector<float> CameraSimulator::Radiance(const View& view, const RayRow& rays) const {
-  std::vector<float> radiance;
-  radiance.reserve(rays.directions.size());
-  for (size_t i = 0; i < rays.directions.size(); ++i) {
-    const Eigen::Vector3f& direction = rays.directions[i];
-    const float distance = rays.distances[i];
-    if (!(distance < kFarAway)) {
-      radiance.push_back(photometry_.Sky(direction));
-      continue;
-    }
-    const Eigen::Vector3f place = view.origin + distance * direction;
-    const GroundPoint ground = mesh_.At(place.x(), place.y());
-    radiance.push_back(photometry_.Ground(ground.normal, -direction, ground.albedo, ground.sunlit));
-  }
-  return radiance;
-}
-
-void CameraSimulator::AddRadiance(const std::vector<float>& radiance, float weight, int row) {
-  float* sums = &radiance_[static_cast<size_t>(row) * radiance.size()];
-  for (size_t i = 0; i < radiance.size(); ++i) sums[i] += weight * radiance[i];
-}
-
-// The exposure that brings the lit ground to its target and keeps a bright sky from saturating:
-// what an ideal automatic control would have settled on, without its lag.
-double CameraSimulator::ChooseExposure() const {
-  constexpr int kStep = 4;
+// The time · gain that brings the lit ground to its target and keeps a bright sky from saturating.
+double ExposureControl::Needed(const RenderedView& view) const {
+  constexpr int kEvery = 4;
   std::vector<float> all;
   std::vector<float> ground;
-  for (int row = 0; row < options_.height; row += kStep) {
-    for (int column = 0; column < options_.width; column += kStep) {
-      const float radiance =
-          radiance_[static_cast<size_t>(row) * static_cast<size_t>(options_.width) +
-                    static_cast<size_t>(column)];
-      all.push_back(radiance);
-      // The upper third is mostly sky.
-      if (row >= options_.height / 3) ground.push_back(radiance);
+  for (int row = 0; row < view.height; row += kEvery) {
+    for (int column = 0; column < view.width; column += kEvery) {
+      const auto pixel = static_cast<size_t>(row * view.width + column);
+      all.push_back(view.radiance[pixel]);
+      if (std::isfinite(view.distance[pixel])) ground.push_back(view.radiance[pixel]);
     }
   }
+  if (ground.empty()) ground = all;
   const double full = options_.full_well / kSensitivity;
   const double for_ground = kTargetLevel * full / Quantile(&ground, kLitQuantile);
   const double for_sky = kBrightLevel * full / Quantile(&all, kBrightQuantile);
-  return std::clamp(std::min(for_ground, for_sky), options_.min_exposure, options_.max_exposure);
+  return std::clamp(std::min(for_ground, for_sky), options_.min_exposure,
+                    options_.max_exposure * options_.max_gain);
 }
 
-Image CameraSimulator::Expose(uint64_t noise_seed, double exposure) const {
+Exposure ExposureControl::Next(const RenderedView& view) {
+  const double now = Needed(view);
+  current_ = current_ > 0.0 ? current_ * std::pow(needed_ / current_, kStep) : now;
+  needed_ = now;
+  Exposure exposure;
+  exposure.time = std::min(current_, options_.max_exposure);
+  exposure.gain = current_ / exposure.time;
+  return exposure;
+}
+
+CameraSimulator::CameraSimulator(const CameraOptions& options, const Renderer& renderer,
+                                 ThreadPool* pool)
+    : options_(options),
+      renderer_(renderer),
+      pool_(pool),
+      focal_(static_cast<float>(MakeIntrinsics(options).focal.x())) {
+  const Eigen::Vector2d centre(0.5 * (options.width - 1), 0.5 * (options.height - 1));
+  for (int row = 0; row < options.height; ++row) {
+    for (int column = 0; column < options.width; ++column) {
+      const double radius = (Eigen::Vector2d(column, row) - centre).norm() / centre.norm();
+      vignette_.push_back(static_cast<float>(1.0 - options.vignetting * radius * radius));
+    }
+  }
+}
+
+// Pixels a second that a point at `distance` m moves; the lens' distortion is left aside.
+Eigen::Vector2f CameraSimulator::PixelMotion(const CameraMotion& motion, float distance, int column,
+                                             int row) const {
+  const Eigen::Vector3f& bearing = renderer_.bearing(column, row);
+  Eigen::Vector3f moves = -motion.angular_velocity.cross(bearing);
+  if (std::isfinite(distance)) moves -= motion.velocity / distance;
+  const float inverse = 1.0F / bearing.z();
+  return focal_ * inverse *
+         Eigen::Vector2f(moves.x() - bearing.x() * inverse * moves.z(),
+                         moves.y() - bearing.y() * inverse * moves.z());
+}
+
+// A pixel gathers along the way that its point goes during the exposure: exact for smooth depth.
+std::vector<float> CameraSimulator::BlurByMotion(const RenderedView& view,
+                                                 const CameraMotion& motion, double time) const {
+  std::vector<float> blurred(view.radiance.size());
+  const auto seconds = static_cast<float>(time);
+  pool_->ParallelFor(
+      static_cast<size_t>(view.height), kRowsAtOnce, [&](size_t begin, size_t end, size_t) {
+        for (auto row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
+          for (int column = 0; column < view.width; ++column) {
+            const auto pixel = static_cast<size_t>(row * view.width + column);
+            const Eigen::Vector2f way =
+                seconds * PixelMotion(motion, view.distance[pixel], column, row);
+            const float length = way.norm();
+            if (length < kLeastMotion) {
+              blurred[pixel] = view.radiance[pixel];
+              continue;
+            }
+            const int taps = std::min(static_cast<int>(1.5F * length) + 2, kMostMotionTaps);
+            float sum = 0.0F;
+            for (int tap = 0; tap < taps; ++tap) {
+              const float share = (static_cast<float>(tap) + 0.5F) / static_cast<float>(taps) - 0.5F;
+              const float u = std::clamp(static_cast<float>(column) + share * way.x(), 0.0F,
+                                         static_cast<float>(view.width) - 1.001F);
+              const float v = std::clamp(static_cast<float>(row) + share * way.y(), 0.0F,
+                                         static_cast<float>(view.height) - 1.001F);
+              const float a = u - std::floor(u);
+              const float b = v - std::floor(v);
+              const float* low = &view.radiance[static_cast<size_t>(
+                  static_cast<int>(v) * view.width + static_cast<int>(u))];
+              const float* high = low + view.width;
+              sum += (1.0F - b) * (low[0] + a * (low[1] - low[0])) +
+                     b * (high[0] + a * (high[1] - high[0]));
+            }
+            blurred[pixel] = sum / static_cast<float>(taps);
+          }
+        }
+      });
+  return blurred;
+}
+
+// A small Gaussian, [s 1 - 2s s] each way.
+void CameraSimulator::BlurByLens(std::vector<float>* radiance) const {
+  const auto side = static_cast<float>(0.5 * options_.lens_blur * options_.lens_blur);
+  if (side <= 0.0F) return;
+  const auto width = static_cast<size_t>(options_.width);
+  const auto height = static_cast<size_t>(options_.height);
+  std::vector<float> rows(radiance->size());
+  for (size_t row = 0; row < height; ++row) {
+    const float* from = radiance->data() + row * width;
+    float* to = rows.data() + row * width;
+    for (size_t i = 1; i + 1 < width; ++i) {
+      to[i] = from[i] + side * (from[i - 1] - 2.0F * from[i] + from[i + 1]);
+    }
+    to[0] = from[0];
+    to[width - 1] = from[width - 1];
+  }
+  for (size_t row = 0; row < height; ++row) {
+    const float* from = rows.data() + row * width;
+    const float* above = row > 0 ? from - width : from;
+    const float* below = row + 1 < height ? from + width : from;
+    float* to = radiance->data() + row * width;
+    for (size_t i = 0; i < width; ++i) {
+      to[i] = from[i] + side * (above[i] - 2.0F * from[i] + below[i]);
+    }
+  }
+}
+
+Image CameraSimulator::Expose(const RenderedView& view, const CameraMotion& motion,
+                              const Exposure& exposure, uint64_t seed, uint64_t frame) const {
+  const uint64_t noise_seed = Scramble(seed ^ Scramble(frame));
+  std::vector<float> radiance =
+      options_.motion_blur ? BlurByMotion(view, motion, exposure.time) : view.radiance;
+  BlurByLens(&radiance);
   Image image;
   image.width = options_.width;
   image.height = options_.height;
-  image.data.resize(static_cast<size_t>(options_.width) * static_cast<size_t>(options_.height));
-  const auto gain = static_cast<float>(kSensitivity * exposure);
-  const auto to_levels = static_cast<float>(255.0 / options_.full_well);
+  image.data.resize(radiance.size());
+  const auto to_electrons = static_cast<float>(kSensitivity * exposure.time);
+  const auto to_levels = static_cast<float>(255.0 / options_.full_well * exposure.gain);
   const auto read_variance = static_cast<float>(options_.read_noise * options_.read_noise);
+  const float noise_on = options_.noise ? 1.0F : 0.0F;
   const auto width = static_cast<size_t>(options_.width);
-  constexpr size_t kRowsAtOnce = 16;
   pool_->ParallelFor(
       static_cast<size_t>(options_.height), kRowsAtOnce, [&](size_t begin, size_t end, size_t) {
-        for (size_t row = begin; row < end; ++row) {
-          for (size_t column = 0; column < width; ++column) {
-            const size_t i = row * width + column;
-            const float electrons =
-                gain * vignette_[i] * radiance_[row * static_cast<size_t>(options_.width) + column];
-            const float noise = std::sqrt(electrons + read_variance) *
-                                FastGaussian(Scramble(noise_seed ^ (i << 20)));
-            const float level = to_levels * (electrons + noise) + 0.5F;
-            image.data[i] = static_cast<uint8_t>(std::clamp(level, 0.0F, 255.0F));
-          }
+        for (size_t i = begin * width; i < end * width; ++i) {
+          const float electrons = to_electrons * vignette_[i] * radiance[i];
+          const float noise = noise_on * std::sqrt(electrons + read_variance) *
+                              FastGaussian(Scramble(noise_seed ^ (i << 20)));
+          const float level = to_levels * (electrons + noise) + 0.5F;
+          image.data[i] = static_cast<uint8_t>(std::clamp(level, 0.0F, 255.0F));
         }
       });
   return image;

@@ -9,51 +9,62 @@
 #include <Eigen/Core>
 
 #include "regolith/core/thread_pool.h"
-#include "regolith/geometry/se3.h"
 #include "regolith/sensor/image.h"
-#include "regolith/sim/photometry.h"
-#include "regolith/sim/row_caster.h"
+#include "regolith/sim/renderer.h"
+#include "regolith/sim/rover_motion.h"
 #include "regolith/sim/scenario_options.h"
-#include "regolith/sim/terrain_mesh.h"
 
 namespace regolith {
 
-/// Renders what a camera sees: ground under the sun with shadows, then exposure, vignetting, shot
-/// and read noise and eight bits. An exposure is one instant: there is no motion blur yet.
-class CameraSimulator {
+/// How long a sensor is exposed and how much its signal is amplified.
+struct Exposure {
+  double time = 0.01;  ///< s
+  double gain = 1.0;
+};
+
+/// Automatic exposure: each frame moves half of the way (in stops) to what the frame before would
+/// have needed.
+class ExposureControl {
  public:
-  CameraSimulator(const CameraOptions& options, const TerrainMesh& mesh,
-                  const Photometry& photometry, ThreadPool* pool);
+  explicit ExposureControl(const CameraOptions& options) : options_(options) {}
 
-  /// The image of a camera at `T_world_camera`. Noise depends on `seed` and `frame` alone.
-  Image Render(const SE3& T_world_camera, uint64_t seed, uint64_t frame);
-
-  /// Seconds that the last image was exposed.
-  double last_exposure() const { return last_exposure_; }
+  /// For the next frame, whose scene looks like `view`; the first frame gets what it needs.
+  Exposure Next(const RenderedView& view);
 
  private:
-  struct View;
-
-  void RenderRows(const View& view, int begin, int end);
-  void RenderNear(const View& view, int begin, int end);
-  void RenderFar(const View& view, int begin, int end);
-  bool SeesFar(const View& view, int row) const;
-  /// The rays of a line, `shift` lines lower; CastRow casts them too.
-  RayRow MakeRow(const View& view, int row, float shift) const;
-  RayRow CastRow(const View& view, int row) const;
-  std::vector<float> Radiance(const View& view, const RayRow& rays) const;
-  void AddRadiance(const std::vector<float>& radiance, float weight, int row);
-  double ChooseExposure() const;
-  Image Expose(uint64_t noise_seed, double exposure) const;
+  double Needed(const RenderedView& view) const;
 
   CameraOptions options_;
-  const TerrainMesh& mesh_;
-  const Photometry& photometry_;
+  double current_ = 0.0;  ///< time · gain, s; 0 before the first frame
+  double needed_ = 0.0;   ///< of the frame before
+};
+
+/// How fast a camera moves during an exposure.
+struct CameraMotion {
+  Eigen::Vector3f velocity = Eigen::Vector3f::Zero();          ///< m/s, camera frame
+  Eigen::Vector3f angular_velocity = Eigen::Vector3f::Zero();  ///< rad/s, camera frame
+};
+
+/// From radiance to eight bits: motion blur, the lens' blur, vignetting, shot and read noise.
+class CameraSimulator {
+ public:
+  CameraSimulator(const CameraOptions& options, const Renderer& renderer, ThreadPool* pool);
+
+  /// Noise depends on `seed` and `frame` alone.
+  Image Expose(const RenderedView& view, const CameraMotion& motion, const Exposure& exposure,
+               uint64_t seed, uint64_t frame) const;
+
+ private:
+  std::vector<float> BlurByMotion(const RenderedView& view, const CameraMotion& motion,
+                                  double time) const;
+  void BlurByLens(std::vector<float>* radiance) const;
+  Eigen::Vector2f PixelMotion(const CameraMotion& motion, float distance, int column, int row) const;
+
+  CameraOptions options_;
+  const Renderer& renderer_;
   ThreadPool* pool_;
-  std::vector<Eigen::Vector3f> bearings_;  ///< camera frame, by pixel
-  std::vector<float> vignette_;            ///< by pixel
-  std::vector<float> radiance_;            ///< I/F, by pixel
-  double last_exposure_ = 0.0;
+  float focal_;                  ///< pixels
+  std::vector<float> vignette_;  ///< by pixel
 };
 
 }  // namespace regolith

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "regolith/terrain/surface.h"
@@ -21,6 +23,13 @@ class Ground {
   }
   double Albedo(double x, double y, double spacing) const {
     return surface_->Albedo(x + origin_.x(), y + origin_.y(), spacing);
+  }
+  /// As Surface::Sample, with the block in world.
+  void Sample(PostBlock block, std::vector<double>* heights, std::vector<float>* albedo) const {
+    block.x += origin_.x();
+    block.y += origin_.y();
+    surface_->Sample(block, heights, albedo);
+    for (double& height : *heights) height -= origin_.z();
   }
 
   const Surface& surface() const { return *surface_; }

@@ -7,6 +7,7 @@
 
 #include "regolith/core/random.h"
 #include "regolith/sim/rover_geometry.h"
+#include "regolith/sim/rover_shadow.h"
 
 namespace regolith {
 namespace {
@@ -14,35 +15,61 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 constexpr float kDropoutRange = 30.0F;  // m, within which the mean share is defined
 constexpr double kMostLost = 0.95;
-// Streams of noise of one ray.
+// Streams of noise of one beam.
 constexpr uint64_t kLostStream = 0;
 constexpr uint64_t kRangeStream = 1;
+constexpr uint64_t kDustStream = 2;
+constexpr uint64_t kDustRangeStream = 3;
 constexpr float kMoonAlbedo = 0.12F;  // gives intensity 100 at normal incidence
+// Echoes closer together than the pulse is long (6 ns) are one.
+constexpr float kPulseLength = 0.9F;  // m
+constexpr float kCentreShare = 0.36F;
+constexpr float kEdgeShare = 0.16F;
+constexpr double kEdge = 0.3;        // of the divergence, from the axis
+constexpr double kDustReach = 4.0;   // m, mean range of dust's returns
+constexpr float kDustIntensity = 4.0F;
 
 // How a return is lost: little light comes back at grazing incidence and from afar, and a beam
-// that grazes is smeared over range.
-float LossShape(float range, float cosine_incidence) {
+// that grazes is smeared over range; dark ground sends less.
+float LossShape(float range, float cosine_incidence, float albedo) {
   const float grazing = 1.0F - cosine_incidence;
-  return (0.1F + grazing * grazing) * (0.25F + range / kDropoutRange);
+  return (0.1F + grazing * grazing) * (0.25F + range / kDropoutRange) *
+         std::sqrt(kMoonAlbedo / std::max(albedo, 0.01F));
 }
 
 }  // namespace
 
-LidarSimulator::LidarSimulator(const LidarOptions& options, const TerrainMesh& mesh,
+LidarSimulator::LidarSimulator(const LidarOptions& options, const Scene& scene,
                                const RoverMotion& motion, uint64_t seed, ThreadPool* pool)
-    : options_(options), mesh_(mesh), motion_(motion), seed_(seed), pool_(pool) {
-  for (int firing = 0; firing < options.firings; ++firing) {
-    // Clockwise from straight ahead, seen from above, as Velodyne's turn.
-    const double azimuth = -2.0 * M_PI * firing / options.firings;
-    for (int ring = 0; ring < options.rings; ++ring) {
-      const double share =
-          options.rings > 1 ? static_cast<double>(ring) / (options.rings - 1) : 0.0;
+    : options_(options), scene_(scene), motion_(motion), seed_(seed), pool_(pool) {
+  for (int laser = 0; laser < options.rings; ++laser) {
+    const bool pairs = options.rings % 2 == 0;
+    rings_.push_back(!pairs ? laser : laser / 2 + (laser % 2 == 0 ? 0 : options.rings / 2));
+  }
+  AimBeams();
+}
+
+void LidarSimulator::AimBeams() {
+  const RoverShadow rover(RoverBody(), SE3{});
+  const SE3 T_base_lidar = BaseFromLidar(options_);
+  const Eigen::Vector3f origin = T_base_lidar.translation.cast<float>();
+  const double turn_rate = 2.0 * M_PI * options_.rate;
+  for (int firing = 0; firing < options_.firings; ++firing) {
+    for (int laser = 0; laser < options_.rings; ++laser) {
+      // Clockwise from straight ahead, seen from above, as Velodyne's turn.
+      const double azimuth =
+          -2.0 * M_PI * firing / options_.firings - turn_rate * LaserDelay(laser);
+      const double share = options_.rings > 1 ? static_cast<double>(rings_[static_cast<size_t>(laser)]) /
+                                                    (options_.rings - 1)
+                                              : 0.0;
       const double elevation =
-          kDegree * (options.lowest_deg + share * (options.highest_deg - options.lowest_deg));
-      directions_.push_back(Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
-                                            std::cos(elevation) * std::sin(azimuth),
-                                            std::sin(elevation))
-                                .cast<float>());
+          kDegree * (options_.lowest_deg + share * (options_.highest_deg - options_.lowest_deg));
+      const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
+                                      std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+      directions_.push_back(direction.cast<float>());
+      const Eigen::Vector3f direction_base = (T_base_lidar.rotation * direction).cast<float>();
+      // The head itself stands on the mast.
+      masked_.push_back(rover.Hides(origin + 0.1F * direction_base, direction_base) ? 1 : 0);
     }
   }
 }
@@ -61,55 +88,126 @@ std::vector<LidarSimulator::Return> LidarSimulator::Cast(double start) const {
 }
 
 void LidarSimulator::CastFiring(double start, int firing, Return* returns) const {
-  const double time = start + firing / (options_.rate * options_.firings);
-  const SE3 T_world_lidar =
-      motion_.PoseAt(time) * (BaseFromImu().Inverse() * BaseFromLidar(options_));
-  const Eigen::Matrix3f R_world_lidar = T_world_lidar.rotation.toRotationMatrix().cast<float>();
-  const Eigen::Vector3f origin = T_world_lidar.translation.cast<float>();
+  const SE3 T_imu_lidar = BaseFromImu().Inverse() * BaseFromLidar(options_);
+  const MotionState motion = motion_.At(start + firing / (options_.rate * options_.firings));
+  const Eigen::Matrix3f R_world_imu = motion.T_world_imu.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Matrix3f R_imu_lidar = T_imu_lidar.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Vector3f lidar_imu = T_imu_lidar.translation.cast<float>();
+  const Eigen::Vector3f imu_world = motion.T_world_imu.translation.cast<float>();
+  const Eigen::Vector3f velocity = motion.v_world_imu.cast<float>();
+  const Eigen::Vector3f rate = motion.angular_velocity_imu.cast<float>();
   const auto first = static_cast<size_t>(firing) * static_cast<size_t>(options_.rings);
-  for (int ring = 0; ring < options_.rings; ring += kPacketSize) {
+  const auto across = static_cast<float>(kEdge * options_.divergence_across);
+  const auto along = static_cast<float>(kEdge * options_.divergence_along);
+  constexpr int kBeams = kPacketSize / kBeamRays;
+  for (int laser = 0; laser < options_.rings; laser += kBeams) {
     RayPacket rays;
-    for (int lane = 0; lane < kPacketSize; ++lane) {
-      const bool on = ring + lane < options_.rings;
-      const size_t ray = first + static_cast<size_t>(std::min(ring + lane, options_.rings - 1));
-      rays.Set(lane, origin, (R_world_lidar * directions_[ray]).normalized(),
-               on ? static_cast<float>(options_.max_range) : -1.0F);
+    rays.Off(kPacketSize - 1);
+    for (int lane = 0; lane < kBeams * kBeamRays; ++lane) {
+      const int beam = laser + lane / kBeamRays;
+      if (beam >= options_.rings || masked_[first + static_cast<size_t>(beam)] != 0) {
+        rays.Off(lane);
+        continue;
+      }
+      const int part = lane % kBeamRays;
+      const Eigen::Vector3f& axis = directions_[first + static_cast<size_t>(beam)];
+      const Eigen::Vector3f left = Eigen::Vector3f(-axis.y(), axis.x(), 0.0F).normalized();
+      Eigen::Vector3f direction = axis;
+      if (part > 0) {
+        direction += (part % 2 == 0 ? across : -across) * left +
+                     (part > 2 ? along : -along) * axis.cross(left);
+      }
+      // The few microseconds since the firing's start: the body's motion is linear.
+      const auto delay = static_cast<float>(LaserDelay(beam));
+      const auto move = [&](const Eigen::Vector3f& v) -> Eigen::Vector3f {
+        return R_world_imu * (v + delay * rate.cross(v));
+      };
+      rays.Set(lane, imu_world + delay * velocity + move(lidar_imu),
+               move(R_imu_lidar * direction).normalized(), static_cast<float>(options_.max_range));
     }
-    mesh_.Intersect(&rays, false);
-    for (int lane = 0; lane < kPacketSize && ring + lane < options_.rings; ++lane) {
-      const float range = rays.distance[lane];
-      if (!(range >= options_.min_range && range <= options_.max_range)) continue;
-      const Eigen::Vector3f place = rays.Point(lane);
-      const GroundPoint ground = mesh_.At(place.x(), place.y());
-      const float cosine = std::clamp((origin - place).dot(ground.normal) / range, 0.0F, 1.0F);
-      Return& echo = returns[ring + lane];
-      echo.range = range;
-      echo.chance = LossShape(range, cosine);
-      echo.intensity = 100.0F * ground.albedo / kMoonAlbedo * cosine;
+    scene_.Intersect(&rays, false);
+    for (int beam = 0; beam < kBeams && laser + beam < options_.rings; ++beam) {
+      Echo echoes[kBeamRays];
+      int count = 0;
+      for (int part = 0; part < kBeamRays; ++part) {
+        const int lane = beam * kBeamRays + part;
+        const float range = rays.distance[lane];
+        if (!(range >= options_.min_range && range <= options_.max_range)) continue;
+        const SurfacePoint point = scene_.Look(rays, lane, across * range);
+        const float cosine = std::clamp(-point.normal.dot(rays.Direction(lane)), 0.01F, 1.0F);
+        const float share = part == 0 ? kCentreShare : kEdgeShare;
+        echoes[count++] = {range, share * cosine * point.albedo / (range * range), cosine,
+                           point.albedo};
+      }
+      returns[laser + beam] = Combine(echoes, count);
     }
   }
 }
 
-bool LidarSimulator::Lost(const Return& echo, uint64_t scan_index, size_t ray) const {
-  const double chance = std::min(dropout_scale_ * echo.chance, kMostLost);
-  return HashUniform(seed_, scan_index, ray, kLostStream) < chance;
+// Echoes by range; the group of close ones with the most energy is the return.
+LidarSimulator::Return LidarSimulator::Combine(Echo* echoes, int count) const {
+  std::sort(echoes, echoes + count,
+            [](const Echo& a, const Echo& b) { return a.range < b.range; });
+  Return best;
+  float best_energy = 0.0F;
+  for (int begin = 0; begin < count;) {
+    Echo sum{0.0F, 0.0F, 0.0F, 0.0F};
+    int end = begin;
+    while (end < count && echoes[end].range - echoes[begin].range < kPulseLength) {
+      const Echo& echo = echoes[end++];
+      sum.range += echo.energy * echo.range;
+      sum.cosine += echo.energy * echo.cosine;
+      sum.albedo += echo.energy * echo.albedo;
+      sum.energy += echo.energy;
+    }
+    if (sum.energy > best_energy) {
+      best_energy = sum.energy;
+      best.range = sum.range / sum.energy;
+      const float cosine = sum.cosine / sum.energy;
+      const float albedo = sum.albedo / sum.energy;
+      best.chance = LossShape(best.range, cosine, albedo);
+      best.intensity = std::min(100.0F / kMoonAlbedo * sum.energy * best.range * best.range, 255.0F);
+    }
+    begin = end;
+  }
+  return best;
+}
+
+bool LidarSimulator::Lost(const Return& echo, uint64_t scan_index, size_t beam) const {
+  const double chance = std::min(dropout_scale_ * static_cast<double>(echo.chance), kMostLost);
+  return HashUniform(seed_, scan_index, beam, kLostStream) < chance;
+}
+
+// 0 where no dust sends the beam back.
+float LidarSimulator::DustRange(uint64_t scan_index, size_t beam) const {
+  if (options_.dust_returns <= 0.0 ||
+      HashUniform(seed_, scan_index, beam, kDustStream) >= options_.dust_returns) {
+    return 0.0F;
+  }
+  const double share = HashUniform(seed_, scan_index, beam, kDustRangeStream);
+  return static_cast<float>(options_.min_range - kDustReach * std::log(1.0 - 0.99 * share));
 }
 
 LidarScan LidarSimulator::Scan(double start, uint64_t scan_index) const {
   const std::vector<Return> returns = Cast(start);
   LidarScan scan;
   scan.points.reserve(returns.size());
-  for (size_t ray = 0; ray < returns.size(); ++ray) {
-    const Return& echo = returns[ray];
-    if (echo.range <= 0.0F || Lost(echo, scan_index, ray)) continue;
-    const double range =
-        echo.range + options_.range_sigma * HashGaussian(seed_, scan_index, ray, kRangeStream);
-    const auto firing = static_cast<int>(ray) / options_.rings;
+  for (size_t beam = 0; beam < returns.size(); ++beam) {
+    Return echo = returns[beam];
+    const float dust = masked_[beam] != 0 ? 0.0F : DustRange(scan_index, beam);
+    if (dust > 0.0F && (echo.range <= 0.0F || dust < echo.range)) {
+      echo = {dust, 0.0F, kDustIntensity};
+    }
+    if (echo.range <= 0.0F || Lost(echo, scan_index, beam)) continue;
+    const double range = static_cast<double>(echo.range) +
+                         options_.range_sigma * HashGaussian(seed_, scan_index, beam, kRangeStream);
+    const auto laser = static_cast<int>(beam % static_cast<size_t>(options_.rings));
+    const auto firing = static_cast<int>(beam / static_cast<size_t>(options_.rings));
     LidarPoint point;
-    point.position = static_cast<float>(range) * directions_[ray];
+    point.position = static_cast<float>(range) * directions_[beam];
     point.intensity = echo.intensity;
-    point.time = static_cast<float>(firing / (options_.rate * options_.firings));
-    point.ring = static_cast<uint16_t>(static_cast<int>(ray) % options_.rings);
+    point.time = static_cast<float>(firing / (options_.rate * options_.firings) + LaserDelay(laser));
+    point.ring = static_cast<uint16_t>(rings_[static_cast<size_t>(laser)]);
     scan.points.push_back(point);
   }
   return scan;
@@ -128,7 +226,9 @@ void LidarSimulator::CalibrateDropout(const std::vector<double>& starts) {
   for (int i = 0; i < 40; ++i) {
     dropout_scale_ = 0.5 * (low + high);
     double sum = 0.0;
-    for (const float chance : chances) sum += std::min(dropout_scale_ * chance, kMostLost);
+    for (const float chance : chances) {
+      sum += std::min(dropout_scale_ * static_cast<double>(chance), kMostLost);
+    }
     (sum > options_.dropout * static_cast<double>(chances.size()) ? high : low) = dropout_scale_;
   }
   dropout_scale_ = low;
@@ -138,10 +238,10 @@ double LidarSimulator::DropoutShare(double start, uint64_t scan_index) const {
   const std::vector<Return> returns = Cast(start);
   double met = 0.0;
   double lost = 0.0;
-  for (size_t ray = 0; ray < returns.size(); ++ray) {
-    if (returns[ray].range <= 0.0F || returns[ray].range >= kDropoutRange) continue;
+  for (size_t beam = 0; beam < returns.size(); ++beam) {
+    if (returns[beam].range <= 0.0F || returns[beam].range >= kDropoutRange) continue;
     met += 1.0;
-    if (Lost(returns[ray], scan_index, ray)) lost += 1.0;
+    if (Lost(returns[beam], scan_index, beam)) lost += 1.0;
   }
   return met > 0.0 ? lost / met : 0.0;
 }

@@ -7,21 +7,23 @@
 
 #include "regolith/core/thread_pool.h"
 #include "regolith/sensor/lidar_scan.h"
+#include "regolith/sim/ray_packet.h"
 #include "regolith/sim/rover_motion.h"
 #include "regolith/sim/scenario_options.h"
-#include "regolith/sim/terrain_mesh.h"
+#include "regolith/sim/scene.h"
 
 namespace regolith {
 
-/// A spinning lidar: each firing casts all rings from the body's pose at its own time. A beam is a
-/// line: it has no footprint yet.
+/// A spinning lidar as the VLP-16: the lasers of a firing go off one after the other (lowest, first
+/// above the middle, second lowest, …) while the head turns and the body moves. A beam has a
+/// footprint: what lies in it mixes where it is close together in range; else the strongest counts.
 class LidarSimulator {
  public:
-  LidarSimulator(const LidarOptions& options, const TerrainMesh& mesh, const RoverMotion& motion,
+  LidarSimulator(const LidarOptions& options, const Scene& scene, const RoverMotion& motion,
                  uint64_t seed, ThreadPool* pool);
 
   /// The turn whose first firing is at `start` s; the stamp is left to the caller. Noise depends on
-  /// the seed and `scan_index` alone.
+  /// the seed and `scan_index` alone. Beams that meet the rover itself are left out.
   LidarScan Scan(double start, uint64_t scan_index) const;
 
   /// Scales drop-outs so that their mean share within 30 m, over scans at `starts` (s), is the one
@@ -37,16 +39,31 @@ class LidarSimulator {
     float chance = 0.0F;  ///< of being lost, before scaling
     float intensity = 0.0F;
   };
+  // What a part of a beam meets.
+  struct Echo {
+    float range;
+    float energy;
+    float cosine;
+    float albedo;
+  };
+  static constexpr int kBeamRays = 5;
+
+  void AimBeams();
   std::vector<Return> Cast(double start) const;
   void CastFiring(double start, int firing, Return* returns) const;
-  bool Lost(const Return& echo, uint64_t scan_index, size_t ray) const;
+  Return Combine(Echo* echoes, int count) const;
+  bool Lost(const Return& echo, uint64_t scan_index, size_t beam) const;
+  float DustRange(uint64_t scan_index, size_t beam) const;
+  double LaserDelay(int laser) const { return laser * options_.laser_interval; }
 
   LidarOptions options_;
-  const TerrainMesh& mesh_;
+  const Scene& scene_;
   const RoverMotion& motion_;
   uint64_t seed_;
   ThreadPool* pool_;
-  std::vector<Eigen::Vector3f> directions_;  ///< lidar frame, by firing and ring
+  std::vector<int> rings_;                   ///< by laser, in the order of firing
+  std::vector<Eigen::Vector3f> directions_;  ///< lidar frame, by firing and laser
+  std::vector<char> masked_;                 ///< 1 where the rover stands in the way, likewise
   double dropout_scale_ = 0.0;
 };
 

@@ -12,15 +12,13 @@ constexpr double kDegree = M_PI / 180.0;
 constexpr double kMoonSunRadius = 0.2665 * kDegree;
 constexpr double kMarsSunRadius = 0.175 * kDegree;
 
-// Light from sunlit ground into a shadow: a few per cent of what the ground scatters, albedo .12,
-// from the small part of the upper hemisphere that slopes fill.
-constexpr float kMoonBounce = 0.012F;
-constexpr float kMarsBounce = 0.03F;
-
 // Dust scatters forward (ω .975, g ≈ .69): seven tenths of what leaves the beam arrive from the
 // sky, which gives the diffuse shares of Appelbaum & Flood 1990 (.33 at τ .5 and zenith 0°).
 constexpr double kForwardShare = 0.7;
 constexpr double kDustAsymmetry = 0.69;
+constexpr double kScaleHeight = 11600.0;  // m, of the dust (Lemmon 2004)
+// Rock that stands free sees its own shadow too: a share of what level ground around would send.
+constexpr float kGroundShare = 0.5F;
 
 double HenyeyGreenstein(double asymmetry, double cosine_scattering) {
   const double squared = asymmetry * asymmetry;
@@ -52,9 +50,18 @@ double MartianPhase(double g) {
   return 0.85 * HenyeyGreenstein(-0.25, cosine) + 0.15 * HenyeyGreenstein(0.25, cosine);
 }
 
+float Lookup(float cosine, const float* table, size_t last) {
+  const float place =
+      std::clamp(0.5F * (cosine + 1.0F), 0.0F, 1.0F) * static_cast<float>(last);
+  const auto index = std::min(static_cast<size_t>(place), last - 1);
+  const float fraction = place - static_cast<float>(index);
+  return table[index] + fraction * (table[index + 1] - table[index]);
+}
+
 }  // namespace
 
-Photometry::Photometry(const std::string& planet, const SunOptions& sun) {
+Photometry::Photometry(const std::string& planet, const SunOptions& sun, double ground_albedo)
+    : ground_albedo_(static_cast<float>(ground_albedo)) {
   const double elevation = sun.elevation_deg * kDegree;
   const double azimuth = sun.azimuth_deg * kDegree;
   sun_.direction = Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
@@ -62,10 +69,11 @@ Photometry::Photometry(const std::string& planet, const SunOptions& sun) {
                        .cast<float>();
   const bool moon = planet == "moon";
   sun_.radius = static_cast<float>(moon ? kMoonSunRadius : kMarsSunRadius);
-  bounce_ = moon ? kMoonBounce : kMarsBounce;
-  const double passed = std::exp(-sun.tau / std::sin(elevation));
+  const double sine = std::max(std::sin(elevation), 0.0);
+  const double passed = sine > 0.0 ? std::exp(-sun.tau / sine) : 0.0;
   direct_ = static_cast<float>(passed);
-  diffuse_ = static_cast<float>(kForwardShare * (1.0 - passed) * std::sin(elevation));
+  diffuse_ = static_cast<float>(kForwardShare * (1.0 - passed) * sine);
+  extinction_ = static_cast<float>(sun.tau / kScaleHeight);
   for (size_t i = 0; i <= kTable; ++i) {
     const double cosine = 2.0 * static_cast<double>(i) / kTable - 1.0;
     const double g = std::acos(std::min(cosine, 1.0));
@@ -74,40 +82,83 @@ Photometry::Photometry(const std::string& planet, const SunOptions& sun) {
     phase_[i] = static_cast<float>(moon ? LunarPhase(g) / LunarPhase(0.0)
                                         : MartianPhase(g) / MartianPhase(0.0));
   }
-}
-
-float Photometry::PhaseAt(float cosine, const std::array<float, kTable + 1>& table) const {
-  const float place = std::clamp(0.5F * (cosine + 1.0F), 0.0F, 1.0F) * static_cast<float>(kTable);
-  const auto index = std::min(static_cast<size_t>(place), kTable - 1);
-  const float fraction = place - static_cast<float>(index);
-  return table[index] + fraction * (table[index + 1] - table[index]);
-}
-
-float Photometry::Ground(const Eigen::Vector3f& normal, const Eigen::Vector3f& to_viewer,
-                         float albedo, float sunlit) const {
-  const float incidence = std::max(normal.dot(sun_.direction), 0.0F);
-  const float emission = std::max(normal.dot(to_viewer), 0.05F);
-  const float cosine_phase = sun_.direction.dot(to_viewer);
-  float light = 0.0F;
-  if (sunlit > 0.0F && incidence > 0.0F) {
-    const float limb = PhaseAt(cosine_phase, limb_);
-    // McEwen 1991: I/F = A f(g) [2 L μ0 / (μ0 + μ) + (1 - L) μ0].
-    light = direct_ * sunlit * PhaseAt(cosine_phase, phase_) *
-            (2.0F * limb * incidence / (incidence + emission) + (1.0F - limb) * incidence);
+  if (diffuse_ > 0.0F) {
+    // Cosine-weighted mean of the sky's shape over the hemisphere.
+    constexpr int kSteps = 4096;
+    double sum = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double share = (i + 0.5) / kSteps;
+      const double angle = 2.3999632 * i;
+      sum += static_cast<double>(SkyShape(
+          Eigen::Vector3d(std::sqrt(share) * std::cos(angle), std::sqrt(share) * std::sin(angle),
+                          std::sqrt(1.0 - share))
+              .cast<float>()));
+    }
+    sky_scale_ = static_cast<float>(static_cast<double>(diffuse_) * kSteps / sum);
   }
-  const float sky_seen = 0.5F * (1.0F + normal.z());
-  const float fill = diffuse_ * sky_seen + direct_ * sun_.direction.z() * bounce_;
-  return albedo * (light + fill);
+  SurfacePoint level;
+  level.albedo = ground_albedo_;
+  level.light = static_cast<float>(sine);
+  level.fill = diffuse_;
+  level_ground_ = Ground(level, Eigen::Vector3f::UnitZ());
+}
+
+float Photometry::Scattered(float light, float incidence, float emission,
+                            float cosine_phase) const {
+  const float limb = Lookup(cosine_phase, limb_.data(), kTable);
+  // I/F = A f(g) [2 L μ0 / (μ0 + μ) + (1 - L) μ0].
+  return light * Lookup(cosine_phase, phase_.data(), kTable) *
+         (2.0F * limb / (incidence + emission) + (1.0F - limb));
+}
+
+float Photometry::Ground(const SurfacePoint& point, const Eigen::Vector3f& to_viewer) const {
+  const float emission = std::max(point.normal.dot(to_viewer), 0.05F);
+  float light = point.fill;
+  if (point.light > 0.0F) {
+    const float incidence = std::max(point.normal.dot(sun_.direction), point.light);
+    light += direct_ *
+             Scattered(point.light, incidence, emission, sun_.direction.dot(to_viewer));
+  }
+  return point.albedo * light;
+}
+
+float Photometry::LitBy(const SurfacePoint& point, const Eigen::Vector3f& to_light,
+                        float irradiance, const Eigen::Vector3f& to_viewer) const {
+  const float incidence = point.normal.dot(to_light);
+  if (incidence <= 0.0F) return 0.0F;
+  const float emission = std::max(point.normal.dot(to_viewer), 0.05F);
+  return point.albedo * irradiance *
+         Scattered(incidence, incidence, emission, to_light.dot(to_viewer));
+}
+
+float Photometry::FillOutside(const Eigen::Vector3f& normal) const {
+  const float up = 0.5F * (1.0F + normal.z());
+  return up * diffuse_ + (1.0F - up) * kGroundShare * level_ground_;
+}
+
+// Brighter towards the sun and the horizon.
+float Photometry::SkyShape(const Eigen::Vector3f& direction) const {
+  const auto cosine = static_cast<double>(direction.dot(sun_.direction));
+  const auto aureole = static_cast<float>(std::min(HenyeyGreenstein(kDustAsymmetry, cosine), 4.0));
+  const float horizon = 1.0F - 0.35F * std::max(direction.z(), 0.0F);
+  return horizon * (0.6F + 0.4F * aureole);
+}
+
+float Photometry::SkyWithoutSun(const Eigen::Vector3f& direction) const {
+  return sky_scale_ > 0.0F ? sky_scale_ * SkyShape(direction) : 0.0F;
 }
 
 float Photometry::Sky(const Eigen::Vector3f& direction) const {
-  const float cosine = direction.dot(sun_.direction);
-  if (cosine > std::cos(sun_.radius)) return 1e4F * direct_;
-  if (diffuse_ <= 0.0F) return 0.0F;
-  // The mean of the hemisphere is the diffuse light; brighter towards the sun and the horizon.
-  const double aureole = HenyeyGreenstein(kDustAsymmetry, cosine);
-  const float horizon = 1.0F - 0.35F * std::max(direction.z(), 0.0F);
-  return diffuse_ * horizon * (0.6F + 0.4F * static_cast<float>(std::min(aureole, 4.0)));
+  if (direction.dot(sun_.direction) > std::cos(sun_.radius)) return 1e4F * direct_;
+  return SkyWithoutSun(direction);
+}
+
+float Photometry::ThroughAir(float radiance, const Eigen::Vector3f& direction,
+                             float distance) const {
+  if (extinction_ <= 0.0F) return radiance;
+  const float passed = std::exp(-extinction_ * distance);
+  Eigen::Vector3f level(direction.x(), direction.y(), 0.0F);
+  return passed * radiance + (1.0F - passed) * SkyWithoutSun(level.normalized());
 }
 
 }  // namespace regolith

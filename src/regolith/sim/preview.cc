@@ -28,6 +28,7 @@ CameraOptions PreviewCamera() {
   camera.read_noise = 2.0;
   camera.full_well = 20000.0;
   camera.max_exposure = 0.2;
+  camera.motion_blur = false;
   return camera;
 }
 
@@ -49,13 +50,13 @@ SE3 Viewpoint(Span<const Eigen::Vector3d> path) {
   return {Eigen::Quaterniond(R_world_camera).normalized(), eye};
 }
 
-bool Hidden(const TerrainMesh& mesh, const Eigen::Vector3d& eye, const Eigen::Vector3f& place) {
+bool Hidden(const Scene& scene, const Eigen::Vector3d& eye, const Eigen::Vector3f& place) {
   const Eigen::Vector3f towards = eye.cast<float>() - place;
   RayPacket ray;
   for (int lane = 0; lane < kPacketSize; ++lane) {
     ray.Set(lane, place, towards.normalized(), lane == 0 ? towards.norm() : -1.0F);
   }
-  mesh.Occluded(&ray);
+  scene.Occluded(&ray);
   return ray.distance[0] == 0.0F;
 }
 
@@ -72,13 +73,16 @@ void DrawDot(const Eigen::Vector2d& pixel, Image* image) {
 
 }  // namespace
 
-Image RenderPreview(const TerrainMesh& mesh, const Photometry& photometry,
+Image RenderPreview(const Scene& scene, const Photometry& photometry,
                     Span<const Eigen::Vector3d> path, ThreadPool* pool) {
   REGOLITH_CHECK(!path.empty(), "no path");
   const CameraOptions options = PreviewCamera();
   const SE3 T_world_camera = Viewpoint(path);
-  CameraSimulator camera(options, mesh, photometry, pool);
-  Image image = camera.Render(T_world_camera, 0, 0);
+  const Renderer renderer(MakeIntrinsics(options), scene, photometry, pool);
+  RenderedView view;
+  renderer.Render(T_world_camera, Surroundings{}, &view);
+  const Exposure exposure = ExposureControl(options).Next(view);
+  Image image = CameraSimulator(options, renderer, pool).Expose(view, CameraMotion{}, exposure, 0, 0);
   const auto model = CameraModel::Create(MakeIntrinsics(options));
   const SE3 T_camera_world = T_world_camera.Inverse();
   constexpr int kDots = 24;
@@ -87,7 +91,7 @@ Image RenderPreview(const TerrainMesh& mesh, const Photometry& photometry,
       const Eigen::Vector3d place = path[i] + (path[i + 1] - path[i]) * (k / double{kDots});
       const Eigen::Vector3f lifted = (place + Eigen::Vector3d(0.0, 0.0, kTrackLift)).cast<float>();
       const auto pixel = model->Project(T_camera_world * lifted.cast<double>());
-      if (pixel && !Hidden(mesh, T_world_camera.translation, lifted)) DrawDot(*pixel, &image);
+      if (pixel && !Hidden(scene, T_world_camera.translation, lifted)) DrawDot(*pixel, &image);
     }
   }
   return image;

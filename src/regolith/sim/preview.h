@@ -11,13 +11,13 @@
 #include "regolith/sensor/image.h"
 #include "regolith/sim/photometry.h"
 #include "regolith/sim/scenario_options.h"
-#include "regolith/sim/terrain_mesh.h"
+#include "regolith/sim/scene.h"
 
 namespace regolith {
 
 /// The ground around a path (m, world, on the ground), from above and behind, with the path as a
 /// bright line where nothing hides it; 1280 × 720.
-Image RenderPreview(const TerrainMesh& mesh, const Photometry& photometry,
+Image RenderPreview(const Scene& scene, const Photometry& photometry,
                     Span<const Eigen::Vector3d> path, ThreadPool* pool);
 
 }  // namespace regolith

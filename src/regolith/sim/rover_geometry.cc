@@ -38,6 +38,24 @@ SE3 BaseFromCamera(const CameraOptions& options, const std::string& camera) {
           Eigen::Vector3d(kMastForward + 0.08, side, options.mast)};
 }
 
+std::vector<RoverBox> RoverBody() {
+  const auto box = [](double x, double y, double z, double half_x, double half_y, double half_z) {
+    return RoverBox{SE3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(x, y, z)),
+                    Eigen::Vector3d(half_x, half_y, half_z)};
+  };
+  std::vector<RoverBox> body = {box(-0.05, 0.0, 0.40, 0.45, 0.26, 0.12),   // chassis
+                                box(-0.10, 0.0, 0.54, 0.52, 0.40, 0.015),  // solar deck
+                                box(kMastForward, 0.0, 0.82, 0.03, 0.03, 0.28),
+                                box(kMastForward + 0.03, 0.0, 1.08, 0.05, 0.11, 0.04),
+                                box(-0.45, 0.25, 0.90, 0.015, 0.015, 0.38)};  // antenna
+  for (const double x : {kHalfWheelbase, -kHalfWheelbase}) {
+    for (const double y : {kHalfTrack, -kHalfTrack}) {
+      body.push_back(box(x, y, 0.15, 0.13, 0.08, 0.13));
+    }
+  }
+  return body;
+}
+
 CameraIntrinsics MakeIntrinsics(const CameraOptions& options) {
   CameraIntrinsics intrinsics;
   intrinsics.width = options.width;

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "regolith/geometry/se3.h"
 #include "regolith/sensor/rig_calibration.h"
@@ -19,6 +22,15 @@ SE3 BaseFromImu();
 SE3 BaseFromLidar(const LidarOptions& options);
 /// `camera`: "mono", "left" or "right".
 SE3 BaseFromCamera(const CameraOptions& options, const std::string& camera);
+
+/// A part of the rover's body.
+struct RoverBox {
+  SE3 T_base_box;                                        ///< at its centre
+  Eigen::Vector3d half_size = Eigen::Vector3d::Zero();  ///< m
+};
+
+/// Chassis, wheels, mast, camera bar and antenna: what casts the rover's shadow.
+std::vector<RoverBox> RoverBody();
 
 CameraIntrinsics MakeIntrinsics(const CameraOptions& options);
 

@@ -39,6 +39,8 @@ void CheckCamera(const CameraOptions& camera) {
   CheckRange("camera.vignetting", camera.vignetting, 0.0, 0.9, "(share)");
   CheckRange("camera.min_exposure", camera.min_exposure, 1e-5, 1.0, "s");
   CheckRange("camera.max_exposure", camera.max_exposure, camera.min_exposure, 1.0, "s");
+  CheckRange("camera.max_gain", camera.max_gain, 1.0, 1000.0, "");
+  CheckRange("camera.lens_blur", camera.lens_blur, 0.0, 0.6, "pixels");
   CheckRange("camera.full_well", camera.full_well, 100.0, 1e6, "electrons");
   CheckRange("camera.read_noise", camera.read_noise, 0.0, 1000.0, "electrons");
   CheckRange("camera.time_offset", camera.time_offset, -0.1, 0.1, "s");
@@ -60,6 +62,11 @@ void CheckLidar(const LidarOptions& lidar) {
   CheckRange("lidar.range_sigma", lidar.range_sigma, 0.0, 1.0, "m");
   CheckRange("lidar.dropout", lidar.dropout, 0.0, 0.5, "(share)");
   CheckRange("lidar.mast", lidar.mast, 0.2, 5.0, "m");
+  const double cycle = 1.0 / (lidar.rate * lidar.firings * lidar.rings);
+  CheckRange("lidar.laser_interval", lidar.laser_interval, 0.0, cycle, "s");
+  CheckRange("lidar.divergence_across", lidar.divergence_across, 0.0, 0.05, "rad");
+  CheckRange("lidar.divergence_along", lidar.divergence_along, 0.0, 0.05, "rad");
+  CheckRange("lidar.dust_returns", lidar.dust_returns, 0.0, 0.1, "(share)");
 }
 
 void CheckWheels(const WheelOptions& wheels) {
@@ -74,24 +81,29 @@ void CheckWheels(const WheelOptions& wheels) {
   CheckRange("wheels.radius_error", wheels.radius_error, 0.0, 0.2, "(share)");
 }
 
-void CheckSun(const SunOptions& sun) {
-  if (sun.elevation_deg <= 0.0) {
+void CheckLight(const SunOptions& sun, const LampOptions& lamp) {
+  CheckRange("lamp.candela", lamp.candela, 0.0, 1e6, "cd");
+  CheckRange("lamp.beam_deg", lamp.beam_deg, 1.0, 80.0, "degrees");
+  CheckRange("lamp.height", lamp.height, 0.1, 3.0, "m");
+  CheckRange("lamp.side", lamp.side, -1.0, 1.0, "m");
+  CheckRange("sun.elevation_deg", sun.elevation_deg, -90.0, 90.0, "degrees");
+  if (sun.elevation_deg <= 0.0 && lamp.candela <= 0.0) {
     throw InputError("sun.elevation_deg",
                      Concatenate(sun.elevation_deg,
                                  " is below the horizon: cameras would see nothing; expected more "
-                                 "than 0 and at most 90 degrees"));
+                                 "than 0 degrees, or a lamp (lamp.candela)"));
   }
-  CheckRange("sun.elevation_deg", sun.elevation_deg, 0.0, 90.0, "degrees");
   CheckRange("sun.azimuth_deg", sun.azimuth_deg, -360.0, 360.0, "degrees");
   CheckRange("sun.tau", sun.tau, 0.0, 5.0, "");
 }
 
 void CheckMesh(const MeshOptions& mesh) {
-  if (mesh.spacing != 0.01 && mesh.spacing != 0.02 && mesh.spacing != 0.04) {
+  if (mesh.spacing != 0.005 && mesh.spacing != 0.01 && mesh.spacing != 0.02 &&
+      mesh.spacing != 0.04) {
     throw InputError("mesh.spacing",
-                     Concatenate(mesh.spacing, " is not one of 0.01, 0.02 and 0.04 m"));
+                     Concatenate(mesh.spacing, " is not one of 0.005, 0.01, 0.02 and 0.04 m"));
   }
-  CheckRange("mesh.reach", mesh.reach, 20.0, 1000.0, "m");
+  CheckRange("mesh.reach", mesh.reach, 20.0, 20000.0, "m");
 }
 
 }  // namespace
@@ -104,7 +116,7 @@ void ScenarioOptions::Check() const {
   CheckDrive(drive);
   CheckRange("duration", duration, drive.rest + 1.0, 36000.0, "s (it starts with a rest)");
   terrain.Check();
-  CheckSun(sun);
+  CheckLight(sun, lamp);
   CheckCamera(camera);
   CheckLidar(lidar);
   CheckRange("imu.rate", imu.rate, 50.0, 5000.0, "Hz");

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "regolith/sensor/imu_noise.h"
+#include "regolith/sim/mesh_options.h"
 #include "regolith/terrain/terrain_options.h"
 
 namespace regolith {
@@ -33,6 +34,14 @@ struct SunOptions {
   double tau = 0.0;             ///< optical depth of the dust; 0 has no sky light
 };
 
+/// A headlight beside the cameras.
+struct LampOptions {
+  double candela = 0.0;  ///< cd on the axis; 0 is off. A pair of 10,000 lm LED lamps has 20,000
+  double beam_deg = 35.0;  ///< degrees off the axis where it sends half as much
+  double height = 0.9;     ///< m above the ground
+  double side = 0.25;      ///< m to the left of the cameras
+};
+
 /// The three cameras; all have these intrinsics.
 struct CameraOptions {
   int width = 640;                                              ///< pixels
@@ -46,6 +55,10 @@ struct CameraOptions {
   double vignetting = 0.25;                                     ///< light lost at a corner, share
   double min_exposure = 0.002;                                  ///< s
   double max_exposure = 0.020;                                  ///< s
+  double max_gain = 8.0;             ///< amplification where the longest exposure is too dark
+  double lens_blur = 0.45;           ///< pixels, standard deviation of the lens' point spread
+  bool motion_blur = true;           ///< the image is smeared by the motion while it is exposed
+  bool noise = true;                 ///< shot and read noise
   double full_well = 10700.0;        ///< electrons at 255 (IMX255: EMVA data sheet)
   double read_noise = 10.0;          ///< electrons
   double time_offset = 0.004;        ///< s; stamp = true mid-exposure + this; not in the rig
@@ -63,6 +76,10 @@ struct LidarOptions {
   double range_sigma = 0.02;  ///< m
   double dropout = 0.05;      ///< mean share lost of the rays that meet ground within 30 m
   double mast = 1.2;          ///< m above the ground
+  double laser_interval = 2.304e-6;  ///< s between two lasers of a firing (VLP-16 manual)
+  double divergence_across = 0.003;  ///< rad, of a beam (VLS-128 manual)
+  double divergence_along = 0.0015;  ///< rad, up and down
+  double dust_returns = 0.0;         ///< share of the beams that dust near the rover sends back
 };
 
 struct ImuOptions {
@@ -88,13 +105,6 @@ struct WheelOptions {
   double radius_error = 0.01;      ///< share of the wheels' radius
 };
 
-/// How finely the ground is meshed: posts of `spacing` near the path, 4, 8 and 40 times as far
-/// apart outwards.
-struct MeshOptions {
-  double spacing = 0.02;  ///< m; 0.01, 0.02 or 0.04
-  double reach = 160.0;   ///< m, from the path to the mesh's border
-};
-
 /// A simulated drive: everything that a recording depends on, beside the elevation model.
 struct ScenarioOptions {
   std::string planet = "moon";  ///< "moon" or "mars": photometry and sky
@@ -104,12 +114,14 @@ struct ScenarioOptions {
   TerrainOptions terrain;
   DriveOptions drive;
   SunOptions sun;
+  LampOptions lamp;
   CameraOptions camera;
   LidarOptions lidar;
   ImuOptions imu;
   VibrationOptions vibration;
   WheelOptions wheels;
   MeshOptions mesh;
+  bool interreflection = true;  ///< shadows are filled by light from ground around
 
   /// Throws InputError that names the key, the value and what was expected.
   void Check() const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "regolith/core/check.h"
 #include "regolith/core/random.h"
@@ -16,9 +17,11 @@
 #include "regolith/sim/photometry.h"
 #include "regolith/sim/planar_path.h"
 #include "regolith/sim/preview.h"
+#include "regolith/sim/renderer.h"
 #include "regolith/sim/rover_geometry.h"
 #include "regolith/sim/rover_motion.h"
-#include "regolith/sim/terrain_mesh.h"
+#include "regolith/sim/rover_shadow.h"
+#include "regolith/sim/scene.h"
 #include "regolith/sim/wheel_simulator.h"
 #include "regolith/terrain/surface.h"
 
@@ -31,6 +34,8 @@ constexpr double kTruthRate = 100.0;     // Hz
 constexpr double kSearchMargin = 40.0;   // m around the origin in which the path may start
 constexpr double kTerrainMargin = 30.0;  // m
 constexpr double kTerrainSpacing = 0.05;
+constexpr double kSettlePeriod = 1.0;     // s between two exchanges of ground tiles
+constexpr double kSunIlluminance = 1.3e5;  // lx, of the sun above the air at the Earth
 constexpr double kPathEnd = 1.0;  // s of path beyond the last measurement
 const char* const kCameras[] = {"mono", "left", "right"};
 
@@ -56,6 +61,27 @@ std::vector<Eigen::Vector2d> Places(const RoverMotion& motion, double duration) 
   return places;
 }
 
+std::vector<Rock> RocksInWorld(const Surface& surface, const RoverMotion& motion,
+                               double duration) {
+  std::vector<Eigen::Vector2d> places = Places(motion, duration);
+  for (Eigen::Vector2d& place : places) place += motion.origin().head<2>();
+  std::vector<Rock> rocks = RocksAroundPath(surface, places);
+  for (Rock& rock : rocks) {
+    rock.centre -= motion.origin().head<2>();
+    rock.ground -= motion.origin().z();
+  }
+  return rocks;
+}
+
+CameraMotion MotionOf(const MotionState& motion, const SE3& T_imu_camera) {
+  const Eigen::Quaterniond R_camera_imu = T_imu_camera.rotation.conjugate();
+  const Eigen::Vector3d v_imu =
+      motion.T_world_imu.rotation.conjugate() * motion.v_world_imu +
+      motion.angular_velocity_imu.cross(T_imu_camera.translation);
+  return {(R_camera_imu * v_imu).cast<float>(),
+          (R_camera_imu * motion.angular_velocity_imu).cast<float>()};
+}
+
 // The measurements of one sensor, evenly spaced.
 struct Schedule {
   double rate = 1.0;          // Hz
@@ -78,11 +104,13 @@ class RoverSimulator : public Simulator {
         patch_(FindPatch(*surface_, path_, options.drive.max_slope_deg * kDegree, options.seed)),
         motion_(*surface_, path_, patch_.offset, options.vibration, options.seed),
         ground_(*surface_, motion_.origin()),
-        photometry_(options.planet, options.sun),
-        mesh_(TerrainMesh::Create(ground_, Places(motion_, options.duration), photometry_.sun(),
-                                  options.mesh, pool)),
-        camera_(options.camera, *mesh_, photometry_, pool),
-        lidar_(options.lidar, *mesh_, motion_, StreamSeed(options.seed, "lidar"), pool),
+        photometry_(options.planet, options.sun, options.terrain.albedo.mean),
+        scene_(Scene::Create(ground_, Places(motion_, options.duration),
+                             RocksInWorld(*surface_, motion_, options.duration), photometry_,
+                             options.mesh, pool)),
+        renderer_(MakeIntrinsics(options.camera), *scene_, photometry_, pool),
+        camera_(options.camera, renderer_, pool),
+        lidar_(options.lidar, *scene_, motion_, StreamSeed(options.seed, "lidar"), pool),
         imu_(options.imu, options.gravity, options.seed),
         wheels_(options.wheels, options.seed) {
     lidar_.CalibrateDropout({0.0, options.duration / 3.0, options.duration / 1.5});
@@ -123,7 +151,7 @@ class RoverSimulator : public Simulator {
     for (double time = 0.0; time <= options_.duration; time += 0.25) {
       track.push_back((motion_.SmoothAt(time).T_world_imu * T_imu_base).translation);
     }
-    return RenderPreview(*mesh_, photometry_, track, pool_);
+    return RenderPreview(*scene_, photometry_, track, pool_);
   }
 
   double steepest_slope() const override { return patch_.steepest; }
@@ -133,6 +161,9 @@ class RoverSimulator : public Simulator {
   SensorEvent NextWheels();
   SensorEvent NextScan();
   SensorEvent NextFrame();
+  void Settle(double time);
+  Exposure ChooseExposure(const std::string& camera);
+  Lamp LampAt(const SE3& T_world_base) const;
 
   ScenarioOptions options_;
   ThreadPool* pool_;
@@ -142,8 +173,13 @@ class RoverSimulator : public Simulator {
   RoverMotion motion_;
   Ground ground_;
   Photometry photometry_;
-  std::unique_ptr<TerrainMesh> mesh_;
+  std::unique_ptr<Scene> scene_;
+  Renderer renderer_;
   CameraSimulator camera_;
+  std::map<std::string, ExposureControl> exposure_controls_;
+  std::map<std::string, Exposure> exposures_;
+  RenderedView view_;
+  int64_t settled_ = -1;
   LidarSimulator lidar_;
   ImuSimulator imu_;
   WheelSimulator wheels_;
@@ -185,10 +221,42 @@ SensorEvent RoverSimulator::NextWheels() {
 }
 
 SensorEvent RoverSimulator::NextScan() {
+  Settle(lidar_schedule_.true_time());
   LidarScan scan = lidar_.Scan(lidar_schedule_.true_time(), lidar_schedule_.next);
   scan.stamp = lidar_schedule_.stamp();
   ++lidar_schedule_.next;
   return scan;
+}
+
+// Which tiles there are depends on the simulated time alone.
+void RoverSimulator::Settle(double time) {
+  const auto period = static_cast<int64_t>(std::floor(time / kSettlePeriod + 1e-9));
+  if (period == settled_) return;
+  settled_ = period;
+  const double start = static_cast<double>(period) * kSettlePeriod;
+  scene_->MoveTo(motion_.SmoothAt(start).T_world_imu.translation.head<2>());
+}
+
+// The right camera is exposed as the left one, so that a pair looks alike.
+Exposure RoverSimulator::ChooseExposure(const std::string& camera) {
+  if (camera == "right") return exposures_.at("left");
+  ExposureControl& control =
+      exposure_controls_.try_emplace(camera, options_.camera).first->second;
+  return exposures_[camera] = control.Next(view_);
+}
+
+Lamp RoverSimulator::LampAt(const SE3& T_world_base) const {
+  const LampOptions& options = options_.lamp;
+  const SE3 T_base_camera = BaseFromCamera(options_.camera, "mono");
+  Lamp lamp;
+  lamp.place = (T_world_base * Eigen::Vector3d(T_base_camera.translation.x(), options.side,
+                                               options.height))
+                   .cast<float>();
+  lamp.axis =
+      (T_world_base.rotation * T_base_camera.rotation * Eigen::Vector3d::UnitZ()).cast<float>();
+  lamp.irradiance = static_cast<float>(options.candela / kSunIlluminance);
+  lamp.beam = static_cast<float>(options.beam_deg * kDegree);
+  return lamp;
 }
 
 // The three cameras are triggered together and come one after the other, with equal stamps.
@@ -196,11 +264,14 @@ SensorEvent RoverSimulator::NextFrame() {
   CameraFrame frame;
   frame.camera = kCameras[next_camera_];
   frame.time = camera_schedule_.stamp();
-  const SE3 T_world_camera =
-      motion_.PoseAt(camera_schedule_.true_time()) *
-      (BaseFromImu().Inverse() * BaseFromCamera(options_.camera, frame.camera));
-  frame.image = camera_.Render(T_world_camera, StreamSeed(options_.seed, frame.camera),
-                               camera_schedule_.next);
+  Settle(camera_schedule_.true_time());
+  const MotionState motion = motion_.At(camera_schedule_.true_time());
+  const SE3 T_world_base = motion.T_world_imu * BaseFromImu().Inverse();
+  const SE3 T_imu_camera = BaseFromImu().Inverse() * BaseFromCamera(options_.camera, frame.camera);
+  const RoverShadow rover(RoverBody(), T_world_base);
+  renderer_.Render(motion.T_world_imu * T_imu_camera, {&rover, LampAt(T_world_base)}, &view_);
+  frame.image = camera_.Expose(view_, MotionOf(motion, T_imu_camera), ChooseExposure(frame.camera),
+                               StreamSeed(options_.seed, frame.camera), camera_schedule_.next);
   if (++next_camera_ == std::size(kCameras)) {
     next_camera_ = 0;
     ++camera_schedule_.next;

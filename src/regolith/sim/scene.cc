@@ -1,0 +1,424 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/sim/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <embree3/rtcore.h>
+
+#include "regolith/core/check.h"
+#include "regolith/sim/fill_light.h"
+#include "regolith/sim/tile_tree.h"
+
+namespace regolith {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kGoldenAngle = 2.3999632F;  // rad
+constexpr int kSunRays = 4;                 // a place
+constexpr float kFarAway = 2e4F;            // m
+// Rays of light start above the post by this share of the posts' spacing, so that neither rounding
+// nor a coarser neighbour's seam shades it.
+constexpr float kShadowLift = 0.2F;
+
+struct RockBand {
+  double diameter;  // m, from which on
+  double reach;     // m from the path
+};
+constexpr RockBand kRockBands[] = {{0.05, 20.0}, {0.2, 100.0}, {0.6, 300.0}};
+
+// An Embree scene of its own, for an instance.
+class Part {
+ public:
+  Part(RTCDevice device, RTCGeometry geometry) : scene_(rtcNewScene(device)) {
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_);
+  }
+  ~Part() { rtcReleaseScene(scene_); }
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+
+  RTCScene scene() const { return scene_; }
+
+ private:
+  RTCScene scene_;
+};
+
+RTCGeometry GridGeometry(RTCDevice device, const GroundTile& tile) {
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_GRID);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                             tile.positions().data(), 0, sizeof(Eigen::Vector3f),
+                             tile.positions().size());
+  auto* grid = static_cast<RTCGrid*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, sizeof(RTCGrid), 1));
+  REGOLITH_CHECK(grid != nullptr, "Embree gave no memory for a tile");
+  grid->startVertexID = 0;
+  grid->stride = GroundTile::kSkirtPosts;
+  grid->width = GroundTile::kSkirtPosts;
+  grid->height = GroundTile::kSkirtPosts;
+  return geometry;
+}
+
+RTCGeometry RockGeometry(RTCDevice device, const RockShape& shape) {
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                              sizeof(Eigen::Vector3f), shape.vertices.size()));
+  auto* triangles = static_cast<uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(uint32_t), shape.triangles.size()));
+  REGOLITH_CHECK(vertices != nullptr && triangles != nullptr, "Embree gave no memory for a rock");
+  for (const Eigen::Vector3f& vertex : shape.vertices) {
+    vertices = std::copy(vertex.data(), vertex.data() + 3, vertices);
+  }
+  for (const auto& triangle : shape.triangles) {
+    triangles = std::copy(triangle.begin(), triangle.end(), triangles);
+  }
+  return geometry;
+}
+
+// A rock's place as an affine map of its shape, column by column.
+std::array<float, 12> Placement(const Rock& rock) {
+  const auto size = static_cast<float>(rock.diameter);
+  const auto cosine = size * static_cast<float>(std::cos(rock.yaw));
+  const auto sine = size * static_cast<float>(std::sin(rock.yaw));
+  return {cosine,
+          sine,
+          0.0F,
+          -sine,
+          cosine,
+          0.0F,
+          0.0F,
+          0.0F,
+          size,
+          static_cast<float>(rock.centre.x()),
+          static_cast<float>(rock.centre.y()),
+          static_cast<float>(rock.ground)};
+}
+
+class EmbreeScene : public Scene {
+ public:
+  EmbreeScene(const Ground& ground, Span<const Eigen::Vector2d> path, std::vector<Rock> rocks,
+              const Photometry& photometry, const MeshOptions& options, ThreadPool* pool)
+      : ground_(ground),
+        tree_(options, path),
+        rocks_(std::move(rocks)),
+        shapes_(ground.surface().RockShapes()),
+        photometry_(photometry),
+        pool_(pool),
+        // One thread builds a tree: it is the same tree each time.
+        device_(rtcNewDevice("threads=1,set_affinity=0")) {
+    REGOLITH_CHECK(device_ != nullptr, "Embree gave no device");
+    scene_ = rtcNewScene(device_);
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    AddRocks();
+    MoveTo(path[0]);
+  }
+
+  ~EmbreeScene() override {
+    tiles_.clear();
+    parts_.clear();
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  void MoveTo(const Eigen::Vector2d& position) override;
+
+  void Intersect(RayPacket* rays, bool coherent) const override {
+    alignas(64) int valid[kPacketSize];
+    RTCRayHit16 rayhit;
+    Load(*rays, &rayhit.ray, valid);
+    for (int i = 0; i < kPacketSize; ++i) {
+      rayhit.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      rayhit.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect16(valid, scene_, &context, &rayhit);
+    for (int i = 0; i < kPacketSize; ++i) {
+      const bool hit = valid[i] != 0 && rayhit.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+      rays->distance[i] = hit ? rayhit.ray.tfar[i] : kInfinity;
+      rays->object[i] = hit ? rayhit.hit.instID[0][i] : kNothing;
+      rays->triangle[i] = rayhit.hit.primID[i];
+      rays->u[i] = rayhit.hit.u[i];
+      rays->v[i] = rayhit.hit.v[i];
+    }
+  }
+
+  void Occluded(RayPacket* rays) const override {
+    alignas(64) int valid[kPacketSize];
+    RTCRay16 ray;
+    Load(*rays, &ray, valid);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded16(valid, scene_, &context, &ray);
+    for (int i = 0; i < kPacketSize; ++i) {
+      rays->distance[i] = valid[i] != 0 && ray.tfar[i] < 0.0F ? 0.0F : kInfinity;
+    }
+  }
+
+  SurfacePoint Look(const RayPacket& rays, int lane, float width) const override;
+
+  bool IsRock(uint32_t object) const override { return object < rocks_.size(); }
+
+  size_t tile_count() const override { return tiles_.size(); }
+  size_t rock_count() const override { return rocks_.size(); }
+
+ private:
+  struct Tile {
+    TileKey key;
+    std::unique_ptr<GroundTile> ground;
+    std::unique_ptr<Part> part;
+  };
+
+  void AddRocks();
+  void Instance(RTCScene part, const std::array<float, 12>& placement, uint32_t id);
+  std::vector<Tile*> Exchange(const std::vector<TileKey>& wanted);
+  void Commit(const std::vector<Tile*>& made);
+  void CastLight(const std::vector<Tile*>& tiles);
+  SurfacePoint LookAtRock(const RayPacket& rays, int lane) const;
+
+  static void Load(const RayPacket& rays, RTCRay16* ray, int* valid) {
+    for (int i = 0; i < kPacketSize; ++i) {
+      valid[i] = rays.limit[i] > 0.0F ? -1 : 0;
+      ray->org_x[i] = rays.origin_x[i];
+      ray->org_y[i] = rays.origin_y[i];
+      ray->org_z[i] = rays.origin_z[i];
+      ray->dir_x[i] = rays.direction_x[i];
+      ray->dir_y[i] = rays.direction_y[i];
+      ray->dir_z[i] = rays.direction_z[i];
+      ray->tnear[i] = 0.0F;
+      ray->tfar[i] = rays.limit[i];
+      ray->time[i] = 0.0F;
+      ray->mask[i] = ~0U;
+      ray->id[i] = static_cast<unsigned>(i);
+      ray->flags[i] = 0;
+    }
+  }
+
+  const Ground& ground_;
+  TileTree tree_;
+  std::vector<Rock> rocks_;
+  std::vector<RockShape> shapes_;
+  const Photometry& photometry_;
+  ThreadPool* pool_;
+  RTCDevice device_;
+  RTCScene scene_ = nullptr;
+  std::vector<std::unique_ptr<Part>> parts_;  // by shape
+  // Ids: rocks first, then tiles.
+  std::map<uint32_t, Tile> tiles_;
+  std::map<TileKey, uint32_t> ids_;
+  std::vector<uint32_t> free_ids_;
+  uint32_t next_id_ = 0;
+  std::vector<const GroundTile*> by_id_;  // from the first tile's id on
+};
+
+void EmbreeScene::AddRocks() {
+  for (const RockShape& shape : shapes_) {
+    parts_.push_back(std::make_unique<Part>(device_, RockGeometry(device_, shape)));
+  }
+  for (size_t i = 0; i < rocks_.size(); ++i) {
+    REGOLITH_CHECK(rocks_[i].shape < parts_.size(), "rock of shape ", rocks_[i].shape);
+    Instance(parts_[rocks_[i].shape]->scene(), Placement(rocks_[i]), static_cast<uint32_t>(i));
+  }
+  next_id_ = static_cast<uint32_t>(rocks_.size());
+}
+
+void EmbreeScene::Instance(RTCScene part, const std::array<float, 12>& placement, uint32_t id) {
+  const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, part);
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, placement.data());
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene_, geometry, id);
+  rtcReleaseGeometry(geometry);
+}
+
+void EmbreeScene::MoveTo(const Eigen::Vector2d& position) {
+  const std::vector<Tile*> made = Exchange(tree_.Wanted(position));
+  if (made.empty()) return;
+  constexpr size_t kTilesAtOnce = 2;
+  pool_->ParallelFor(made.size(), kTilesAtOnce, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) {
+      Tile& tile = *made[i];
+      tile.ground = std::make_unique<GroundTile>(ground_, tree_.Corner(tile.key),
+                                                 tree_.Spacing(tile.key.level));
+      tile.part = std::make_unique<Part>(device_, GridGeometry(device_, *tile.ground));
+    }
+  });
+  Commit(made);
+  CastLight(made);
+}
+
+// Frees the tiles that are not wanted and makes room for the new ones, in their order.
+std::vector<EmbreeScene::Tile*> EmbreeScene::Exchange(const std::vector<TileKey>& wanted) {
+  for (auto entry = ids_.begin(); entry != ids_.end();) {
+    if (std::binary_search(wanted.begin(), wanted.end(), entry->first)) {
+      ++entry;
+      continue;
+    }
+    rtcDetachGeometry(scene_, entry->second);
+    tiles_.erase(entry->second);
+    free_ids_.push_back(entry->second);
+    entry = ids_.erase(entry);
+  }
+  std::vector<Tile*> made;
+  for (const TileKey& key : wanted) {
+    if (ids_.count(key) != 0) continue;
+    if (free_ids_.empty()) free_ids_.push_back(next_id_++);
+    const uint32_t id = free_ids_.back();
+    free_ids_.pop_back();
+    ids_[key] = id;
+    Tile& tile = tiles_[id];
+    tile.key = key;
+    made.push_back(&tile);
+  }
+  return made;
+}
+
+void EmbreeScene::Commit(const std::vector<Tile*>& made) {
+  constexpr std::array<float, 12> kInPlace = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+  by_id_.assign(next_id_ - rocks_.size(), nullptr);
+  for (const auto& [id, tile] : tiles_) {
+    by_id_[id - rocks_.size()] = tile.ground.get();
+  }
+  for (const Tile* tile : made) Instance(tile->part->scene(), kInPlace, ids_.at(tile->key));
+  rtcCommitScene(scene_);
+  const RTCError error = rtcGetDeviceError(device_);
+  REGOLITH_CHECK(error == RTC_ERROR_NONE, "Embree error ", static_cast<int>(error));
+}
+
+// Fill light is one bounce of the sunlight, so all of that comes first.
+void EmbreeScene::CastLight(const std::vector<Tile*>& tiles) {
+  pool_->ParallelFor(tiles.size(), 1, [&](size_t begin, size_t end, size_t) {
+    std::vector<Eigen::Vector3f> places;
+    std::vector<float> sunlit(static_cast<size_t>(GroundTile::kPosts * GroundTile::kPosts));
+    for (size_t i = begin; i < end; ++i) {
+      GroundTile& ground = *tiles[i]->ground;
+      places.clear();
+      for (int row = 0; row < GroundTile::kPosts; ++row) {
+        for (int column = 0; column < GroundTile::kPosts; ++column) {
+          places.push_back(ground.Post(column, row) +
+                           kShadowLift * ground.spacing() * ground.Normal(column, row));
+        }
+      }
+      CastSunlight(*this, photometry_.sun(), places, sunlit.data());
+      ground.SetSunlight(sunlit, photometry_.sun().direction);
+    }
+  });
+  pool_->ParallelFor(tiles.size(), 1, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) {
+      tiles[i]->ground->SetFill(CastFillLight(*this, photometry_, *tiles[i]->ground));
+    }
+  });
+}
+
+SurfacePoint EmbreeScene::Look(const RayPacket& rays, int lane, float width) const {
+  const uint32_t object = rays.object[lane];
+  if (IsRock(object)) return LookAtRock(rays, lane);
+  const GroundTile& tile = *by_id_[object - rocks_.size()];
+  const Eigen::Vector3f place = rays.Point(lane);
+  // The footprint is stretched where the ray grazes the level ground.
+  const float down = std::max(std::abs(rays.direction_z[lane]), 0.01F);
+  const Eigen::Vector2f plan(rays.direction_x[lane], rays.direction_y[lane]);
+  const float norm = plan.norm();
+  const Eigen::Vector2f along = norm > 1e-4F ? Eigen::Vector2f(plan / norm) : plan;
+  return tile.At(place.x(), place.y(), width, width / down, along);
+}
+
+SurfacePoint EmbreeScene::LookAtRock(const RayPacket& rays, int lane) const {
+  const Rock& rock = rocks_[rays.object[lane]];
+  const RockShape& shape = shapes_[rock.shape];
+  const auto& corners = shape.triangles[rays.triangle[lane]];
+  const float u = rays.u[lane];
+  const float v = rays.v[lane];
+  const Eigen::Vector3f normal = (1.0F - u - v) * shape.normals[corners[0]] +
+                                 u * shape.normals[corners[1]] + v * shape.normals[corners[2]];
+  const auto cosine = static_cast<float>(std::cos(rock.yaw));
+  const auto sine = static_cast<float>(std::sin(rock.yaw));
+  SurfacePoint point;
+  point.normal = Eigen::Vector3f(cosine * normal.x() - sine * normal.y(),
+                                 sine * normal.x() + cosine * normal.y(), normal.z())
+                     .normalized();
+  point.albedo = rock.brightness * photometry_.ground_albedo();
+  return point;
+}
+
+}  // namespace
+
+std::vector<Rock> RocksAroundPath(const Surface& surface, Span<const Eigen::Vector2d> path) {
+  std::vector<Rock> rocks;
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& place : path) box.extend(place);
+  for (size_t band = 0; band < std::size(kRockBands); ++band) {
+    const double reach = kRockBands[band].reach;
+    const bool last = band + 1 == std::size(kRockBands);
+    const double largest = last ? kInfinity : kRockBands[band + 1].diameter;
+    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reach);
+    for (const Rock& rock :
+         surface.Rocks({box.min() - margin, box.max() + margin}, kRockBands[band].diameter)) {
+      if (rock.diameter >= largest) continue;
+      const bool near = std::any_of(path.begin(), path.end(), [&](const Eigen::Vector2d& place) {
+        return (place - rock.centre).squaredNorm() < reach * reach;
+      });
+      if (near) rocks.push_back(rock);
+    }
+  }
+  return rocks;
+}
+
+void CastSunlight(const Scene& scene, const SunDisc& sun, Span<const Eigen::Vector3f> places,
+                  float* sunlit) {
+  constexpr size_t kPlacesAtOnce = kPacketSize / kSunRays;
+  if (sun.direction.z() <= 0.0F) {
+    std::fill(sunlit, sunlit + places.size(), 0.0F);
+    return;
+  }
+  const Eigen::Vector3f across = sun.direction.unitOrthogonal();
+  const Eigen::Vector3f along = sun.direction.cross(across);
+  Eigen::Vector3f to_sun[kSunRays];
+  for (int ray = 0; ray < kSunRays; ++ray) {
+    const float radius = sun.radius * std::sqrt((static_cast<float>(ray) + 0.5F) / kSunRays);
+    const float angle = kGoldenAngle * static_cast<float>(ray);
+    to_sun[ray] =
+        (sun.direction + radius * (std::cos(angle) * across + std::sin(angle) * along)).normalized();
+  }
+  RayPacket rays;
+  for (size_t first = 0; first < places.size(); first += kPlacesAtOnce) {
+    for (int lane = 0; lane < kPacketSize; ++lane) {
+      const size_t place = first + static_cast<size_t>(lane / kSunRays);
+      if (place < places.size()) {
+        rays.Set(lane, places[place], to_sun[lane % kSunRays], kFarAway);
+      } else {
+        rays.Off(lane);
+      }
+    }
+    scene.Occluded(&rays);
+    for (size_t i = 0; i < kPlacesAtOnce && first + i < places.size(); ++i) {
+      const float* distances = rays.distance + i * kSunRays;
+      const auto seen = std::count_if(distances, distances + kSunRays,
+                                      [](float distance) { return distance > 0.0F; });
+      sunlit[first + i] = static_cast<float>(seen) / kSunRays;
+    }
+  }
+}
+
+std::unique_ptr<Scene> Scene::Create(const Ground& ground, Span<const Eigen::Vector2d> path,
+                                     std::vector<Rock> rocks, const Photometry& photometry,
+                                     const MeshOptions& options, ThreadPool* pool) {
+  REGOLITH_CHECK(!path.empty(), "a scene needs a path");
+  return std::make_unique<EmbreeScene>(ground, path, std::move(rocks), photometry, options, pool);
+}
+
+}  // namespace regolith
