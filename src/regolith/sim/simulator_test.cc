@@ -9,8 +9,8 @@
 
 #include "regolith/core/error.h"
 #include "regolith/geometry/so3.h"
+#include "regolith/sim/drive_planner.h"
 #include "regolith/sim/lidar_simulator.h"
-#include "regolith/sim/patch_search.h"
 #include "regolith/sim/photometry.h"
 #include "regolith/sim/rover_geometry.h"
 
@@ -152,9 +152,8 @@ class LidarTest : public testing::Test {
       : pool_(2),
         surface_(CreateGeneratedSurface(TerrainOptions{}, 3,
                                         {Eigen::Vector2d(-40, -40), Eigen::Vector2d(40, 40)})),
-        path_(PlanPath(DriveOptions{}, 3, 20.0, kMotionInterval)),
-        motion_(*surface_, path_, FindPatch(*surface_, path_, 0.26, 3).offset, VibrationOptions{},
-                3),
+        path_(PlanDrive(*surface_, DriveOptions{}, RoverOptions{}, 3, 20.0, kMotionInterval).path),
+        motion_(*surface_, path_, RoverOptions{}, VibrationOptions{}, 3),
         ground_(*surface_, motion_.origin()) {
     MeshOptions mesh;
     mesh.spacing = 0.04;
