@@ -10,7 +10,7 @@
 #include "regolith/sim/camera_simulator.h"
 #include "regolith/sim/fill_light.h"
 #include "regolith/sim/lidar_simulator.h"
-#include "regolith/sim/planar_path.h"
+#include "regolith/sim/drive.h"
 #include "regolith/sim/rover_geometry.h"
 #include "regolith/sim/scene.h"
 
@@ -23,7 +23,7 @@ struct World {
       : pool(1),
         surface(CreateGeneratedSurface(options.terrain, 1,
                                        {Eigen::Vector2d(-60.0, -60.0), Eigen::Vector2d(60.0, 60.0)})),
-        motion(*surface, StraightPath(), Eigen::Vector2d::Zero(), options.vibration, 1),
+        motion(*surface, StraightPath(), options.rover, options.vibration, 1),
         ground(*surface, motion.origin()),
         photometry(options.planet, options.sun, options.terrain.albedo.mean) {
     for (double x = 0.0; x <= 10.0; x += 0.25) places.emplace_back(x, 0.0);

@@ -49,6 +49,10 @@ void Fields(Archive& archive, TerrainOptions& terrain) {
 
 template <typename Archive>
 void Fields(Archive& archive, DriveOptions& drive) {
+  archive("route", drive.route);
+  archive("length", drive.length);
+  archive("waypoints", drive.waypoints);
+  archive("waypoint_frame", drive.waypoint_frame);
   archive("speed", drive.speed);
   archive("rest", drive.rest);
   archive("leg_duration", drive.leg_duration);
@@ -57,6 +61,14 @@ void Fields(Archive& archive, DriveOptions& drive) {
   archive("turn_rate_deg", drive.turn_rate_deg);
   archive("curvature", drive.curvature);
   archive("max_slope_deg", drive.max_slope_deg);
+  archive("wanted_slope_deg", drive.wanted_slope_deg);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, RoverOptions& rover) {
+  archive("wheels", rover.wheels);
+  archive("wheel_radius", rover.wheel_radius);
+  archive("rocker_travel", rover.rocker_travel);
 }
 
 template <typename Archive>
@@ -124,6 +136,10 @@ void Fields(Archive& archive, ImuOptions& imu) {
   archive("accelerometer_walk", imu.noise.accelerometer_walk);
   archive("gyro_bias_sigma", imu.noise.gyro_bias_sigma);
   archive("accelerometer_bias_sigma", imu.noise.accelerometer_bias_sigma);
+  archive("gyro_scale_sigma", imu.gyro_scale_sigma);
+  archive("accelerometer_scale_sigma", imu.accelerometer_scale_sigma);
+  archive("gyro_misalignment_deg", imu.gyro_misalignment_deg);
+  archive("accelerometer_misalignment_deg", imu.accelerometer_misalignment_deg);
 }
 
 template <typename Archive>
@@ -158,6 +174,7 @@ void Fields(Archive& archive, ScenarioOptions& scenario) {
   archive("seed", scenario.seed);
   archive("terrain", scenario.terrain);
   archive("drive", scenario.drive);
+  archive("rover", scenario.rover);
   archive("sun", scenario.sun);
   archive("lamp", scenario.lamp);
   archive("camera", scenario.camera);

@@ -16,6 +16,9 @@ namespace regolith {
 /// Half the distances between the wheels' contact points, m.
 inline constexpr double kHalfWheelbase = 0.42;
 inline constexpr double kHalfTrack = 0.36;
+inline constexpr double kHalfWheelWidth = 0.08;
+/// Height of the body's lower side above level ground, m.
+inline constexpr double kBellyClearance = 0.25;
 
 /// Frame `base` lies on the ground between the wheels, x forward, y left, z up.
 SE3 BaseFromImu();

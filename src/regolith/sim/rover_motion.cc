@@ -5,97 +5,42 @@
 #include <algorithm>
 #include <cmath>
 
+#include "regolith/core/check.h"
+#include "regolith/core/error.h"
 #include "regolith/sim/rover_geometry.h"
+#include "regolith/sim/suspension.h"
 
 namespace regolith {
 namespace {
 
-// A wheel does not fall into what is narrower than itself.
-constexpr double kWheelFootprint = 0.1;  // m
-
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 
-struct Tilt {
-  double height = 0.0;
-  double pitch = 0.0;  // rad, nose down positive (about y)
-  double roll = 0.0;   // rad, left side up positive (about x)
-};
-
-Tilt TiltOnWheels(const Surface& surface, const PlanarPose& pose) {
-  const Eigen::Vector2d ahead(std::cos(pose.yaw), std::sin(pose.yaw));
-  const Eigen::Vector2d left(-ahead.y(), ahead.x());
-  const auto height = [&](double x, double y) {
-    const Eigen::Vector2d wheel = pose.position + x * ahead + y * left;
-    return surface.Height(wheel.x(), wheel.y(), kWheelFootprint);
-  };
-  const double front_left = height(kHalfWheelbase, kHalfTrack);
-  const double front_right = height(kHalfWheelbase, -kHalfTrack);
-  const double back_left = height(-kHalfWheelbase, kHalfTrack);
-  const double back_right = height(-kHalfWheelbase, -kHalfTrack);
-  Tilt tilt;
-  tilt.height = 0.25 * (front_left + front_right + back_left + back_right);
-  tilt.pitch =
-      -std::atan2(0.5 * (front_left + front_right - back_left - back_right), 2.0 * kHalfWheelbase);
-  tilt.roll =
-      std::atan2(0.5 * (front_left + back_left - front_right - back_right), 2.0 * kHalfTrack);
-  return tilt;
-}
-
-Eigen::Quaterniond FromYawPitchRoll(double yaw, double pitch, double roll) {
-  return Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
-}
-
-Vector7 ControlPoint(const Surface& surface, const PlanarPose& pose) {
-  const Tilt tilt = TiltOnWheels(surface, pose);
-  const Eigen::Vector3d base(pose.position.x(), pose.position.y(), tilt.height);
+Vector7 ControlPoint(const PlanarPose& pose, const RoverOptions& rover, Suspension* suspension) {
+  const Stance stance = suspension->At(pose.position, pose.yaw);
+  if (stance.travel > rover.rocker_travel) {
+    throw InputError(
+        "rover.rocker_travel",
+        Concatenate("a wheel would have to move ", stance.travel, " m at x ", pose.position.x(),
+                    ", y ", pose.position.y(), " m; choose another --seed or gentler ground"));
+  }
+  const Eigen::Vector3d base(pose.position.x(), pose.position.y(), stance.height);
   Vector7 control;
   control.head<3>() =
-      base + FromYawPitchRoll(pose.yaw, tilt.pitch, tilt.roll) * BaseFromImu().translation;
-  control.tail<4>() << pose.yaw, tilt.pitch, tilt.roll, pose.speed;
+      base + FromYawPitchRoll(pose.yaw, stance.pitch, stance.roll) * BaseFromImu().translation;
+  control.tail<4>() << pose.yaw, stance.pitch, stance.roll, pose.speed;
   return control;
-}
-
-PlanarPose Moved(PlanarPose pose, const Eigen::Vector2d& offset) {
-  pose.position += offset;
-  return pose;
 }
 
 }  // namespace
 
-SE3 RestOnWheels(const Surface& surface, const PlanarPose& pose) {
-  const Tilt tilt = TiltOnWheels(surface, pose);
-  return {FromYawPitchRoll(pose.yaw, tilt.pitch, tilt.roll),
-          Eigen::Vector3d(pose.position.x(), pose.position.y(), tilt.height)};
-}
-
-double SteepestSlope(const Surface& surface, Span<const PlanarPose> path,
-                     const Eigen::Vector2d& offset) {
-  double steepest = 0.0;
-  for (const PlanarPose& planned : path) {
-    const PlanarPose pose = Moved(planned, offset);
-    const Tilt tilt = TiltOnWheels(surface, pose);
-    const double body = std::acos(std::cos(tilt.pitch) * std::cos(tilt.roll));
-    const Eigen::Vector2d half = 0.5 * Eigen::Vector2d(std::cos(pose.yaw), std::sin(pose.yaw));
-    const Eigen::Vector2d front = pose.position + half;
-    const Eigen::Vector2d back = pose.position - half;
-    const double along = std::atan(surface.Height(front.x(), front.y(), kWheelFootprint) -
-                                   surface.Height(back.x(), back.y(), kWheelFootprint));
-    steepest = std::max({steepest, body, std::abs(along)});
-  }
-  return steepest;
-}
-
 RoverMotion::RoverMotion(const Surface& surface, Span<const PlanarPose> path,
-                         const Eigen::Vector2d& offset, const VibrationOptions& vibration,
+                         const RoverOptions& rover, const VibrationOptions& vibration,
                          uint64_t seed)
     : vibration_(vibration, seed), reference_speed_(vibration.reference_speed) {
   std::vector<Vector7> controls;
   controls.reserve(path.size());
-  for (const PlanarPose& pose : path) {
-    controls.push_back(ControlPoint(surface, Moved(pose, offset)));
-  }
+  Suspension suspension(surface, rover);
+  for (const PlanarPose& pose : path) controls.push_back(ControlPoint(pose, rover, &suspension));
   origin_ = controls.front().head<3>();
   for (Vector7& control : controls) control.head<3>() -= origin_;
   spline_ = Spline(std::move(controls), kMotionInterval);

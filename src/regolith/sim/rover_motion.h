@@ -9,8 +9,8 @@
 
 #include "regolith/core/span.h"
 #include "regolith/geometry/se3.h"
+#include "regolith/sim/drive.h"
 #include "regolith/sim/ground.h"
-#include "regolith/sim/planar_path.h"
 #include "regolith/sim/scenario_options.h"
 #include "regolith/sim/uniform_spline.h"
 #include "regolith/sim/vibration.h"
@@ -28,20 +28,13 @@ struct MotionState {
 /// Time between control points of the motion, s.
 inline constexpr double kMotionInterval = 0.1;
 
-/// The pose of `base` (m, rad) that rests on its four wheels at a place of the plane, in the
-/// frame of `surface`: a plane through the wheels by least squares, as a rocker suspension has it.
-SE3 RestOnWheels(const Surface& surface, const PlanarPose& pose);
-
-/// Steepest of the body's tilt and the ground's own slope over 1 m along the path, rad.
-double SteepestSlope(const Surface& surface, Span<const PlanarPose> path,
-                     const Eigen::Vector2d& offset);
-
 /// The rover's motion: a C⁴ spline through poses that rest on the ground, and vibration on top.
 /// Frame `world`: origin and yaw 0 at the first IMU pose.
 class RoverMotion {
  public:
-  /// `path` at kMotionInterval, from `offset` (m) of the surface's frame on.
-  RoverMotion(const Surface& surface, Span<const PlanarPose> path, const Eigen::Vector2d& offset,
+  /// `path` at kMotionInterval, in the surface's frame. Throws InputError where the rover cannot
+  /// stand.
+  RoverMotion(const Surface& surface, Span<const PlanarPose> path, const RoverOptions& rover,
               const VibrationOptions& vibration, uint64_t seed);
 
   /// At `time` s since the start.

@@ -17,15 +17,55 @@ void CheckRange(const std::string& key, double value, double low, double high,
       key, Concatenate(value, " is out of bounds; expected ", low, " to ", high, " ", unit));
 }
 
+void CheckWaypoints(const DriveOptions& drive) {
+  const std::string& frame = drive.waypoint_frame;
+  if (frame != "start" && frame != "map") {
+    throw InputError("drive.waypoint_frame",
+                     "\"" + frame + "\" is not known; expected start or map");
+  }
+  if (drive.route != "waypoints") return;
+  const size_t count = drive.waypoints.size();
+  if (count % 2 != 0 || count < (frame == "map" ? 4U : 2U)) {
+    throw InputError("drive.waypoints",
+                     Concatenate("has ", count, " numbers; expected x y of ",
+                                 frame == "map" ? "two places or more" : "one place or more"));
+  }
+}
+
 void CheckDrive(const DriveOptions& drive) {
+  if (drive.route != "wander" && drive.route != "loops" && drive.route != "waypoints") {
+    throw InputError("drive.route",
+                     "\"" + drive.route + "\" is not known; expected wander, loops or waypoints");
+  }
+  CheckWaypoints(drive);
+  CheckRange("drive.length", drive.length, 2.0, 5000.0, "m");
   CheckRange("drive.speed", drive.speed, 0.02, 2.0, "m/s");
   CheckRange("drive.rest", drive.rest, 0.5, 60.0, "s");
   CheckRange("drive.leg_duration", drive.leg_duration, 4.0, 600.0, "s");
   CheckRange("drive.stop", drive.stop, 0.0, 60.0, "s");
   CheckRange("drive.turn_deg", drive.turn_deg, 0.0, 180.0, "degrees");
   CheckRange("drive.turn_rate_deg", drive.turn_rate_deg, 1.0, 45.0, "degrees/s");
-  CheckRange("drive.curvature", drive.curvature, 0.0, 0.5, "1/m");
-  CheckRange("drive.max_slope_deg", drive.max_slope_deg, 1.0, 30.0, "degrees");
+  CheckRange("drive.curvature", drive.curvature, 0.05, 0.5, "1/m");
+  CheckRange("drive.max_slope_deg", drive.max_slope_deg, 2.0, 30.0, "degrees");
+  CheckRange("drive.wanted_slope_deg", drive.wanted_slope_deg, 0.0, drive.max_slope_deg, "degrees");
+}
+
+void CheckRover(const RoverOptions& rover) {
+  if (rover.wheels != 4 && rover.wheels != 6) {
+    throw InputError("rover.wheels",
+                     Concatenate(rover.wheels, " is not possible; expected 4 or 6"));
+  }
+  CheckRange("rover.wheel_radius", rover.wheel_radius, 0.05, 0.2, "m");
+  CheckRange("rover.rocker_travel", rover.rocker_travel, 0.01, 0.4, "m");
+}
+
+void CheckImu(const ImuOptions& imu) {
+  CheckRange("imu.rate", imu.rate, 50.0, 5000.0, "Hz");
+  CheckRange("imu.gyro_scale_sigma", imu.gyro_scale_sigma, 0.0, 0.1, "(share)");
+  CheckRange("imu.accelerometer_scale_sigma", imu.accelerometer_scale_sigma, 0.0, 0.1, "(share)");
+  CheckRange("imu.gyro_misalignment_deg", imu.gyro_misalignment_deg, 0.0, 5.0, "degrees");
+  CheckRange("imu.accelerometer_misalignment_deg", imu.accelerometer_misalignment_deg, 0.0, 5.0,
+             "degrees");
 }
 
 void CheckCamera(const CameraOptions& camera) {
@@ -114,12 +154,13 @@ void ScenarioOptions::Check() const {
   }
   CheckRange("gravity", gravity, 1.2, 26.0, "m/s²");
   CheckDrive(drive);
+  CheckRover(rover);
   CheckRange("duration", duration, drive.rest + 1.0, 36000.0, "s (it starts with a rest)");
   terrain.Check();
   CheckLight(sun, lamp);
   CheckCamera(camera);
   CheckLidar(lidar);
-  CheckRange("imu.rate", imu.rate, 50.0, 5000.0, "Hz");
+  CheckImu(imu);
   CheckRange("vibration.acceleration", vibration.acceleration, 0.0, 20.0, "m/s²");
   CheckRange("vibration.angular_rate", vibration.angular_rate, 0.0, 2.0, "rad/s");
   CheckRange("vibration.reference_speed", vibration.reference_speed, 0.01, 5.0, "m/s");

@@ -14,17 +14,31 @@
 
 namespace regolith {
 
-/// How the rover drives: rest, then legs of driving in gentle curves with a stop and a point turn
-/// between them.
+/// How the rover drives: rest, then legs of driving with a stop and a point turn between them. The
+/// route is planned on the ground (drive_planner.h).
 struct DriveOptions {
-  double speed = 0.5;           ///< m/s, nominal; legs run up to 1.2 times as fast
-  double rest = 3.0;            ///< s at rest before the first leg
-  double leg_duration = 16.0;   ///< s of driving between two stops
-  double stop = 0.5;            ///< s at rest before and after a point turn
-  double turn_deg = 40.0;       ///< angle of a point turn, degrees
-  double turn_rate_deg = 20.0;  ///< peak rate of a point turn, degrees/s
-  double curvature = 0.08;      ///< 1/m, of the sharpest curve
-  double max_slope_deg = 15.0;  ///< degrees; the patch is chosen so that the path stays below
+  /// "wander": ahead, with gentle curves. "loops": two laps that come back to the old track, first
+  /// in the old direction, then facing the other way. "waypoints": along the list.
+  std::string route = "wander";
+  double length = 60.0;           ///< m, of the route (wander, loops); at its end the rover rests
+  std::vector<double> waypoints;  ///< m, x y of each
+  std::string waypoint_frame = "start";  ///< "start": from the first pose on; "map": the terrain's
+  double speed = 0.5;                    ///< m/s, nominal; legs run up to 1.23 times as fast
+  double rest = 3.0;                     ///< s at rest before the first leg
+  double leg_duration = 16.0;            ///< s of driving between two stops
+  double stop = 0.4;                     ///< s at rest before and after a point turn
+  double turn_deg = 30.0;                ///< angle of a point turn where the way is free, degrees
+  double turn_rate_deg = 20.0;           ///< peak rate of a point turn, degrees/s
+  double curvature = 0.2;                ///< 1/m, of the sharpest curve
+  double max_slope_deg = 15.0;           ///< degrees; body and ground over 1 m stay below
+  double wanted_slope_deg = 10.0;  ///< degrees; places are preferred whose route has such slopes
+};
+
+/// What the rover stands on.
+struct RoverOptions {
+  int wheels = 4;               ///< 4, on rockers; 6, on rockers and bogies
+  double wheel_radius = 0.15;   ///< m
+  double rocker_travel = 0.18;  ///< m a wheel goes up or down from the body's level
 };
 
 /// Where the sun stands, and what the sky adds.
@@ -85,6 +99,11 @@ struct LidarOptions {
 struct ImuOptions {
   double rate = 200.0;  ///< Hz
   ImuNoise noise;
+  /// Standard deviations, an axis, of errors that the rig does not tell.
+  double gyro_scale_sigma = 0.0;           ///< share
+  double accelerometer_scale_sigma = 0.0;  ///< share
+  double gyro_misalignment_deg = 0.0;      ///< degrees, of an axis towards another
+  double accelerometer_misalignment_deg = 0.0;
 };
 
 /// Shaking of the body at the reference speed; proportional to speed.
@@ -113,6 +132,7 @@ struct ScenarioOptions {
   uint64_t seed = 1;
   TerrainOptions terrain;
   DriveOptions drive;
+  RoverOptions rover;
   SunOptions sun;
   LampOptions lamp;
   CameraOptions camera;

@@ -10,14 +10,14 @@
 #include "regolith/core/check.h"
 #include "regolith/core/random.h"
 #include "regolith/sim/camera_simulator.h"
+#include "regolith/sim/drive_planner.h"
 #include "regolith/sim/ground.h"
 #include "regolith/sim/imu_simulator.h"
 #include "regolith/sim/lidar_simulator.h"
-#include "regolith/sim/patch_search.h"
 #include "regolith/sim/photometry.h"
-#include "regolith/sim/planar_path.h"
 #include "regolith/sim/preview.h"
 #include "regolith/sim/renderer.h"
+#include "regolith/sim/route_layout.h"
 #include "regolith/sim/rover_geometry.h"
 #include "regolith/sim/rover_motion.h"
 #include "regolith/sim/rover_shadow.h"
@@ -30,27 +30,18 @@ namespace {
 
 constexpr TimeNs kEpoch = 1'700'000'000'000'000'000;  // an arbitrary date, as a real recorder's
 constexpr double kDegree = M_PI / 180.0;
-constexpr double kTruthRate = 100.0;     // Hz
-constexpr double kSearchMargin = 40.0;   // m around the origin in which the path may start
-constexpr double kTerrainMargin = 30.0;  // m
+constexpr double kTruthRate = 100.0;                  // Hz
+constexpr double kTerrainMargin = 30.0;               // m
 constexpr double kTerrainSpacing = 0.05;
 constexpr double kSettlePeriod = 1.0;     // s between two exchanges of ground tiles
 constexpr double kSunIlluminance = 1.3e5;  // lx, of the sun above the air at the Earth
 constexpr double kPathEnd = 1.0;  // s of path beyond the last measurement
 const char* const kCameras[] = {"mono", "left", "right"};
 
-std::vector<PlanarPose> FullPath(const ScenarioOptions& options) {
-  return PlanPath(options.drive, options.seed, options.duration + kPathEnd, kMotionInterval);
-}
-
-std::unique_ptr<Surface> MakeSurface(const ScenarioOptions& options, const HeightGrid* dem,
-                                     const std::vector<PlanarPose>& path) {
+std::unique_ptr<Surface> MakeSurface(const ScenarioOptions& options, const HeightGrid* dem) {
   if (dem != nullptr) return CreateDemSurface(*dem, options.terrain, options.seed);
-  Eigen::AlignedBox2d box;
-  for (const PlanarPose& pose : path) box.extend(pose.position);
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kSearchMargin);
   return CreateGeneratedSurface(options.terrain, options.seed,
-                                {box.min() - margin, box.max() + margin});
+                                DriveBox(options.drive, options.seed));
 }
 
 std::vector<Eigen::Vector2d> Places(const RoverMotion& motion, double duration) {
@@ -61,11 +52,14 @@ std::vector<Eigen::Vector2d> Places(const RoverMotion& motion, double duration) 
   return places;
 }
 
-std::vector<Rock> RocksInWorld(const Surface& surface, const RoverMotion& motion,
-                               double duration) {
+std::vector<Rock> RocksInWorld(const Surface& surface, const Drive& drive,
+                               const RoverMotion& motion, double duration) {
   std::vector<Eigen::Vector2d> places = Places(motion, duration);
   for (Eigen::Vector2d& place : places) place += motion.origin().head<2>();
   std::vector<Rock> rocks = RocksAroundPath(surface, places);
+  rocks.erase(std::remove_if(rocks.begin(), rocks.end(),
+                             [&](const Rock& rock) { return drive.Clears(rock.centre); }),
+              rocks.end());
   for (Rock& rock : rocks) {
     rock.centre -= motion.origin().head<2>();
     rock.ground -= motion.origin().z();
@@ -99,14 +93,14 @@ class RoverSimulator : public Simulator {
   RoverSimulator(const ScenarioOptions& options, const HeightGrid* dem, ThreadPool* pool)
       : options_(options),
         pool_(pool),
-        path_(FullPath(options)),
-        surface_(MakeSurface(options, dem, path_)),
-        patch_(FindPatch(*surface_, path_, options.drive.max_slope_deg * kDegree, options.seed)),
-        motion_(*surface_, path_, patch_.offset, options.vibration, options.seed),
+        surface_(MakeSurface(options, dem)),
+        drive_(PlanDrive(*surface_, options.drive, options.rover, options.seed,
+                         options.duration + kPathEnd, kMotionInterval)),
+        motion_(*surface_, drive_.path, options.rover, options.vibration, options.seed),
         ground_(*surface_, motion_.origin()),
         photometry_(options.planet, options.sun, options.terrain.albedo.mean),
         scene_(Scene::Create(ground_, Places(motion_, options.duration),
-                             RocksInWorld(*surface_, motion_, options.duration), photometry_,
+                             RocksInWorld(*surface_, drive_, motion_, options.duration), photometry_,
                              options.mesh, pool)),
         renderer_(MakeIntrinsics(options.camera), *scene_, photometry_, pool),
         camera_(options.camera, renderer_, pool),
@@ -154,7 +148,7 @@ class RoverSimulator : public Simulator {
     return RenderPreview(*scene_, photometry_, track, pool_);
   }
 
-  double steepest_slope() const override { return patch_.steepest; }
+  double steepest_slope() const override { return drive_.steepest; }
 
  private:
   SensorEvent NextImu();
@@ -167,9 +161,8 @@ class RoverSimulator : public Simulator {
 
   ScenarioOptions options_;
   ThreadPool* pool_;
-  std::vector<PlanarPose> path_;
   std::unique_ptr<Surface> surface_;
-  Patch patch_;
+  Drive drive_;
   RoverMotion motion_;
   Ground ground_;
   Photometry photometry_;

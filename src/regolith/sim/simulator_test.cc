@@ -9,8 +9,8 @@
 
 #include "regolith/core/error.h"
 #include "regolith/geometry/so3.h"
+#include "regolith/sim/drive_planner.h"
 #include "regolith/sim/lidar_simulator.h"
-#include "regolith/sim/patch_search.h"
 #include "regolith/sim/photometry.h"
 #include "regolith/sim/rover_geometry.h"
 
@@ -152,9 +152,8 @@ class LidarTest : public testing::Test {
       : pool_(2),
         surface_(CreateGeneratedSurface(TerrainOptions{}, 3,
                                         {Eigen::Vector2d(-40, -40), Eigen::Vector2d(40, 40)})),
-        path_(PlanPath(DriveOptions{}, 3, 20.0, kMotionInterval)),
-        motion_(*surface_, path_, FindPatch(*surface_, path_, 0.26, 3).offset, VibrationOptions{},
-                3),
+        path_(PlanDrive(*surface_, DriveOptions{}, RoverOptions{}, 3, 20.0, kMotionInterval).path),
+        motion_(*surface_, path_, RoverOptions{}, VibrationOptions{}, 3),
         ground_(*surface_, motion_.origin()) {
     MeshOptions mesh;
     mesh.spacing = 0.04;
@@ -163,7 +162,7 @@ class LidarTest : public testing::Test {
     for (double time = 0.0; time < 20.0; time += 0.5) {
       places.emplace_back(motion_.PoseAt(time).translation.head<2>());
     }
-    mesh_ = TerrainMesh::Create(ground_, places, SunDisc{}, mesh, &pool_);
+    scene_ = Scene::Create(ground_, places, {}, photometry_, mesh, &pool_);
   }
 
   ThreadPool pool_;
@@ -171,7 +170,8 @@ class LidarTest : public testing::Test {
   std::vector<PlanarPose> path_;
   RoverMotion motion_;
   Ground ground_;
-  std::unique_ptr<TerrainMesh> mesh_;
+  Photometry photometry_{"moon", SunOptions{}, 0.12};
+  std::unique_ptr<Scene> scene_;
 };
 
 // Each point, put into the world with the true pose of its own time, lies on the ground: firing
@@ -180,7 +180,7 @@ TEST_F(LidarTest, PointsLieOnTheGroundAtTheirOwnTimes) {
   LidarOptions options;
   options.range_sigma = 0.0;
   options.dropout = 0.0;
-  const LidarSimulator lidar(options, *mesh_, motion_, 1, &pool_);
+  const LidarSimulator lidar(options, *scene_, motion_, 1, &pool_);
   const SE3 T_imu_lidar = BaseFromImu().Inverse() * BaseFromLidar(options);
   const double start = 12.0;
   const LidarScan scan = lidar.Scan(start, 0);
@@ -204,8 +204,8 @@ TEST_F(LidarTest, RangesHaveTheirNoise) {
   exact.dropout = 0.0;
   LidarOptions noisy = exact;
   noisy.range_sigma = 0.02;
-  const LidarScan clean = LidarSimulator(exact, *mesh_, motion_, 1, &pool_).Scan(9.0, 4);
-  const LidarScan scan = LidarSimulator(noisy, *mesh_, motion_, 1, &pool_).Scan(9.0, 4);
+  const LidarScan clean = LidarSimulator(exact, *scene_, motion_, 1, &pool_).Scan(9.0, 4);
+  const LidarScan scan = LidarSimulator(noisy, *scene_, motion_, 1, &pool_).Scan(9.0, 4);
   ASSERT_EQ(clean.points.size(), scan.points.size());
   double squares = 0.0;
   for (size_t i = 0; i < scan.points.size(); ++i) {
@@ -216,7 +216,7 @@ TEST_F(LidarTest, RangesHaveTheirNoise) {
 }
 
 TEST_F(LidarTest, LosesFivePercentWithinThirtyMetres) {
-  LidarSimulator lidar(LidarOptions{}, *mesh_, motion_, 1, &pool_);
+  LidarSimulator lidar(LidarOptions{}, *scene_, motion_, 1, &pool_);
   lidar.CalibrateDropout({0.0, 7.0, 14.0});
   double sum = 0.0;
   int scans = 0;
@@ -224,24 +224,42 @@ TEST_F(LidarTest, LosesFivePercentWithinThirtyMetres) {
   EXPECT_NEAR(sum / scans, 0.05, 0.01);
 }
 
-TEST(Photometry, MoonIsBlackAboveAndBrightestInOpposition) {
-  const Photometry moon("moon", SunOptions{});
-  EXPECT_EQ(moon.Sky(Eigen::Vector3f(-1.0F, 0.0F, 0.3F).normalized()), 0.0F);
-  const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
-  const Eigen::Vector3f sun = moon.sun().direction;
-  const Eigen::Vector3f mirrored(-sun.x(), -sun.y(), sun.z());
-  EXPECT_GT(moon.Ground(up, sun, 0.12F, 1.0F), 1.5F * moon.Ground(up, mirrored, 0.12F, 1.0F));
-  EXPECT_LT(moon.Ground(up, mirrored, 0.12F, 0.0F), 0.05F * moon.Ground(up, mirrored, 0.12F, 1.0F));
+SurfacePoint Level(const Photometry& photometry, float albedo, float sunlit) {
+  SurfacePoint point;
+  point.albedo = albedo;
+  point.light = sunlit * photometry.sun().direction.z();
+  return point;
 }
 
-TEST(Photometry, MarsHasASkyAndSoftShadows) {
+TEST(Photometry, MoonIsBlackAboveAndBrightestInOpposition) {
+  const Photometry moon("moon", SunOptions{}, 0.12);
+  EXPECT_EQ(moon.Sky(Eigen::Vector3f(-1.0F, 0.0F, 0.3F).normalized()), 0.0F);
+  const Eigen::Vector3f sun = moon.sun().direction;
+  const Eigen::Vector3f mirrored(-sun.x(), -sun.y(), sun.z());
+  const SurfacePoint lit = Level(moon, 0.12F, 1.0F);
+  EXPECT_GT(moon.Ground(lit, sun), 1.5F * moon.Ground(lit, mirrored));
+  EXPECT_EQ(moon.Ground(Level(moon, 0.12F, 0.0F), mirrored), 0.0F);
+}
+
+// Appelbaum & Flood 1990: at tau .5 and a zenith angle of 60 degrees .53 of the light is diffuse.
+TEST(Photometry, MarsHasASkyThatSendsItsShareOfTheLight) {
   SunOptions sun;
-  sun.elevation_deg = 40.0;
+  sun.elevation_deg = 30.0;
   sun.tau = 0.5;
-  const Photometry mars("mars", sun);
-  EXPECT_GT(mars.Sky(Eigen::Vector3f(-1.0F, 0.0F, 0.3F).normalized()), 0.05F);
-  const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
-  EXPECT_GT(mars.Ground(up, up, 0.2F, 0.0F), 0.2F * mars.Ground(up, up, 0.2F, 1.0F));
+  const Photometry mars("mars", sun, 0.2);
+  double sky = 0.0;
+  constexpr int kRays = 2000;
+  for (int i = 0; i < kRays; ++i) {
+    const double share = (i + 0.5) / kRays;
+    const double angle = 2.399963 * i;
+    sky += static_cast<double>(mars.SkyWithoutSun(
+               Eigen::Vector3d(std::sqrt(share) * std::cos(angle), std::sqrt(share) * std::sin(angle),
+                               std::sqrt(1.0 - share))
+                   .cast<float>())) /
+           kRays;
+  }
+  const double direct = std::exp(-sun.tau / 0.5) * 0.5;
+  EXPECT_NEAR(sky / (sky + direct), 0.53, 0.06);
 }
 
 }  // namespace
