@@ -17,15 +17,16 @@ namespace regolith {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kFitSamples = 6000;
+constexpr int kFitSamples = 30000;
+constexpr double kFitSpacing = 0.05;  // m
 // Posts carry waves from twice their spacing on, and craters that span four of them.
 constexpr double kWavelengthsPerPost = 2.0;
 constexpr double kCraterPosts = 4.0;
 // A mesh reaches beyond the box of the path.
-constexpr double kSurroundings = 200.0;      // m
+constexpr double kSurroundings = 3000.0;     // m
 constexpr double kLargestSearchBox = 400.0;  // m, half of it
 
-// Relief and craters of the statistics; `largest` bounds both, for a model that has the rest.
+// Relief and craters of the statistics, scaled together.
 class Statistical {
  public:
   Statistical(const TerrainOptions& options, uint64_t seed, const Eigen::AlignedBox2d& box)
@@ -36,35 +37,45 @@ class Statistical {
   }
 
   double Relief(double x, double y, double spacing) const {
-    return relief_scale_ * relief_.At(x, y, kWavelengthsPerPost * spacing);
-  }
-  double Craters(double x, double y, double spacing) const {
-    return craters_.Height(x, y, kCraterPosts * spacing);
+    return relief_.At(x, y, kWavelengthsPerPost * spacing);
   }
   double Height(double x, double y, double spacing) const {
-    return Relief(x, y, spacing) + Craters(x, y, spacing);
+    return Relief(x, y, spacing) + craters_.Height(x, y, kCraterPosts * spacing);
   }
+  void AddTo(const PostBlock& block, double* heights) const {
+    relief_.AddTo(block, kWavelengthsPerPost * block.spacing, heights);
+    craters_.AddTo(block, kCraterPosts * block.spacing, heights);
+  }
+  const FractalNoise& relief() const { return relief_; }
+  const CraterField& craters() const { return craters_; }
 
  private:
   // Craters are part of the measured slopes: the relief gets what they leave. The figure grows
   // with the scale, so bisection finds it.
   void FitRelief(const ReliefOptions& options, const Eigen::AlignedBox2d& box) {
+    const HeightFunction shaped = [this](double x, double y) {
+      return craters_.Height(x, y, kCraterPosts * kFitSpacing);
+    };
+    const HeightFunction rough = [this](double x, double y) { return Relief(x, y, kFitSpacing); };
+    const std::vector<double> given = HeightDifferences(shaped, box, 1.0, kFitSamples);
+    const std::vector<double> scaled = HeightDifferences(rough, box, 1.0, kFitSamples);
     const double target = std::tan(options.slope_deg * kDegree);
     double low = 0.0;
     double high = 4.0 * target;
-    for (int i = 0; i < 14; ++i) {
-      relief_scale_ = 0.5 * (low + high);
-      const HeightFunction height = [this](double x, double y) { return Height(x, y, 0.05); };
+    for (int i = 0; i < 24; ++i) {
+      const double scale = 0.5 * (low + high);
+      std::vector<double> sum = given;
+      for (size_t k = 0; k < sum.size(); ++k) sum[k] += scale * scaled[k];
       const double figure = options.statistic == SlopeStatistic::kRms
-                                ? RmsDeviation(height, box, 1.0, kFitSamples)
-                                : std::tan(MedianSlope(height, box, 1.0, kFitSamples));
-      (figure > target ? high : low) = relief_scale_;
+                                ? RootMeanSquare(sum)
+                                : MedianMagnitude(std::move(sum));
+      (figure > target ? high : low) = scale;
     }
+    relief_.Scale(0.5 * (low + high));
   }
 
   FractalNoise relief_;
   CraterField craters_;
-  double relief_scale_ = 1.0;
 };
 
 class GeneratedSurface : public Surface {
@@ -78,7 +89,13 @@ class GeneratedSurface : public Surface {
     return statistical_.Height(x, y, spacing);
   }
   double Albedo(double x, double y, double spacing) const override {
-    return albedo_.At(x, y, kWavelengthsPerPost * spacing);
+    return albedo_.At(x, y, spacing);
+  }
+  void Sample(const PostBlock& block, std::vector<double>* heights,
+              std::vector<float>* albedo) const override {
+    heights->assign(block.size(), 0.0);
+    statistical_.AddTo(block, heights->data());
+    albedo_.Sample(block, albedo);
   }
   bool Known(double x, double y, double margin) const override {
     return box_.contains(Eigen::AlignedBox2d(Eigen::Vector2d(x - margin, y - margin),
@@ -126,7 +143,7 @@ class DemSurface : public Surface {
     return height;
   }
   double Albedo(double x, double y, double spacing) const override {
-    return albedo_.At(x, y, kWavelengthsPerPost * spacing);
+    return albedo_.At(x, y, spacing);
   }
   bool Known(double x, double y, double margin) const override {
     return dem_.HasData(x, y, margin);
