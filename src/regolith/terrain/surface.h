@@ -57,8 +57,9 @@ std::unique_ptr<Surface> CreateGeneratedSurface(const TerrainOptions& options, u
 std::unique_ptr<Surface> CreateDemSurface(const HeightGrid& dem, const TerrainOptions& options,
                                           uint64_t seed);
 
-/// Heights of `surface` over `box` at posts `spacing` m apart; coordinates are shifted by -`origin`
-/// (m, x y z), so that a terrain can be written in the frame of a path.
+/// Heights of the top of `surface`, rocks included, over `box` at posts `spacing` m apart;
+/// coordinates are shifted by -`origin` (m, x y z), so that a terrain can be written in the frame
+/// of a path.
 HeightGrid SampleSurface(const Surface& surface, const Eigen::AlignedBox2d& box, double spacing,
                          const Eigen::Vector3d& origin);
 
