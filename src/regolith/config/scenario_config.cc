@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/config/scenario_config.h"
 
+#include <algorithm>
+#include <iterator>
+#include <string>
+
 #include "regolith/core/error.h"
 #include "regolith/core/version.h"
 
@@ -24,26 +28,78 @@ void Fields(Archive& archive, ReliefOptions& relief) {
 }
 
 template <typename Archive>
+void Fields(Archive& archive, ExtraCrater& crater) {
+  archive("x", crater.x);
+  archive("y", crater.y);
+  archive("diameter", crater.diameter);
+  archive("depth", crater.depth);
+}
+
+template <typename Archive>
 void Fields(Archive& archive, CraterOptions& craters) {
   archive("density", craters.density);
   archive("min_diameter", craters.min_diameter);
   archive("max_diameter", craters.max_diameter);
+  archive("equilibrium_diameter", craters.equilibrium_diameter);
   archive("fresh_depth", craters.fresh_depth);
   archive("oldest_depth", craters.oldest_depth);
+  archive("extra", craters.extra);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, RockOptions& rocks) {
+  constexpr const char* kLaws[] = {"none", "power", "golombek"};
+  std::string law = kLaws[static_cast<size_t>(rocks.law)];
+  archive("law", law);
+  if constexpr (Archive::kReading) {
+    const auto* const found = std::find(std::begin(kLaws), std::end(kLaws), law);
+    if (found == std::end(kLaws)) {
+      archive.Fail("law", "`" + law + "`: expected none, power or golombek");
+    }
+    rocks.law = static_cast<RockLaw>(found - std::begin(kLaws));
+  }
+  archive("density", rocks.density);
+  archive("exponent", rocks.exponent);
+  archive("cover", rocks.cover);
+  archive("min_diameter", rocks.min_diameter);
+  archive("max_diameter", rocks.max_diameter);
+  archive("clustering", rocks.clustering);
+  archive("height_share", rocks.height_share);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, ClodOptions& clods) {
+  archive("density", clods.density);
+  archive("exponent", clods.exponent);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, RippleOptions& ripples) {
+  archive("wavelength", ripples.wavelength);
+  archive("height", ripples.height);
+  archive("mega_wavelength", ripples.mega_wavelength);
+  archive("mega_height", ripples.mega_height);
+  archive("dune_wavelength", ripples.dune_wavelength);
+  archive("dune_height", ripples.dune_height);
+  archive("cover", ripples.cover);
+  archive("direction_deg", ripples.direction_deg);
 }
 
 template <typename Archive>
 void Fields(Archive& archive, AlbedoOptions& albedo) {
   archive("mean", albedo.mean);
   archive("contrast", albedo.contrast);
-  archive("shortest_wavelength", albedo.shortest_wavelength);
-  archive("longest_wavelength", albedo.longest_wavelength);
+  archive("grain", albedo.grain);
+  archive("patches", albedo.patches);
 }
 
 template <typename Archive>
 void Fields(Archive& archive, TerrainOptions& terrain) {
   archive("relief", terrain.relief);
   archive("craters", terrain.craters);
+  archive("rocks", terrain.rocks);
+  archive("clods", terrain.clods);
+  archive("ripples", terrain.ripples);
   archive("albedo", terrain.albedo);
 }
 

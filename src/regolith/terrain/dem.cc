@@ -93,6 +93,34 @@ double Dem::Height(double x, double y) const {
   return Cubic(lines[0], lines[1], lines[2], lines[3], v - row);
 }
 
+void Dem::AddTo(const PostBlock& block, double* heights) const {
+  std::vector<int> columns;
+  std::vector<double> fractions;
+  for (int i = 0; i < block.columns; ++i) {
+    const double u = std::clamp(ToPost(block.x + i * block.spacing, 0.0).x(), 0.0,
+                                static_cast<double>(grid_.columns - 1));
+    columns.push_back(static_cast<int>(u));
+    fractions.push_back(u - columns.back());
+  }
+  // Each row of posts sees one line of the model, interpolated north to south where it is needed.
+  const int first = columns.front() - 1;
+  std::vector<double> line(static_cast<size_t>(columns.back() + 3 - first));
+  for (int j = 0; j < block.rows; ++j) {
+    const double v = std::clamp(ToPost(0.0, block.y + j * block.spacing).y(), 0.0,
+                                static_cast<double>(grid_.rows - 1));
+    const int row = static_cast<int>(v);
+    for (size_t k = 0; k < line.size(); ++k) {
+      const int column = first + static_cast<int>(k);
+      line[k] = Cubic(Clamped(column, row - 1), Clamped(column, row), Clamped(column, row + 1),
+                      Clamped(column, row + 2), v - row);
+    }
+    for (size_t i = 0; i < columns.size(); ++i) {
+      const double* const at = &line[static_cast<size_t>(columns[i] - first)];
+      *heights++ += Cubic(at[-1], at[0], at[1], at[2], fractions[i]);
+    }
+  }
+}
+
 bool Dem::HasData(double x, double y, double margin) const {
   const Eigen::Vector2d low = ToPost(x - margin, y + margin);
   const Eigen::Vector2d high = ToPost(x + margin, y - margin);

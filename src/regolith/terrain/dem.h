@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "regolith/terrain/height_grid.h"
+#include "regolith/terrain/post_block.h"
 
 namespace regolith {
 
@@ -19,6 +20,9 @@ class Dem {
 
   /// Height (m) at x, y (m, frame `map` with the origin in the grid's centre).
   double Height(double x, double y) const;
+
+  /// Adds Height of every post of `block` to `heights`.
+  void AddTo(const PostBlock& block, double* heights) const;
 
   /// Whether every post within `margin` m of (x, y) is data of the model itself.
   bool HasData(double x, double y, double margin) const;

@@ -3,6 +3,7 @@
 #include "regolith/terrain/fractal_noise.h"
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -47,22 +48,43 @@ TEST(FractalNoise, HasTheHurstExponentAskedFor) {
   }
 }
 
-TEST(AlbedoField, IsLogNormalWithTheContrastAskedFor) {
-  AlbedoOptions options;
-  options.contrast = 0.12;
+TEST(FractalNoise, GivesBlocksWhatItGivesPosts) {
+  const FractalNoise noise(7, 1024.0, 0.01, 0.76);
+  for (const double spacing : {0.005, 0.32, 20.0}) {
+    const PostBlock block{-311.0, 178.0, spacing, 200, 5};
+    std::vector<double> values(block.size(), 0.0);
+    noise.AddTo(block, 2.0 * spacing, values.data());
+    for (size_t k = 0; k < values.size(); ++k) {
+      const double x = block.x + static_cast<double>(k % 200) * spacing;
+      const double y = block.y + static_cast<double>(k / 200) * spacing;
+      EXPECT_NEAR(values[k], noise.At(x, y, 2.0 * spacing), 2e-4) << spacing;
+    }
+  }
+}
+
+double LogarithmSigma(const AlbedoOptions& options) {
   const AlbedoField field(options, 11);
   Random random(2);
-  double sum = 0.0;
   double squares = 0.0;
   const int count = 50000;
   for (int i = 0; i < count; ++i) {
     const double value = std::log(
-        field.At(random.Uniform(0.0, 300.0), random.Uniform(0.0, 300.0), 0.0) / options.mean);
-    sum += value;
+        field.At(random.Uniform(0.0, 900.0), random.Uniform(0.0, 900.0), 0.0) / options.mean);
     squares += value * value;
   }
-  EXPECT_NEAR(sum / count, 0.0, 0.01);
-  EXPECT_NEAR(std::sqrt(squares / count), options.contrast, 0.006);
+  return std::sqrt(squares / count);
+}
+
+TEST(AlbedoField, HasTheContrastAskedForFromOneCentimetreToOneMetre) {
+  AlbedoOptions options;
+  options.contrast = 0.12;
+  options.grain = 0.0;
+  options.patches = 0.0;
+  EXPECT_NEAR(LogarithmSigma(options), 0.12, 0.004);
+  options.grain = 0.05;
+  EXPECT_NEAR(LogarithmSigma(options), std::hypot(0.12, 0.05), 0.004);
+  options.patches = 0.06;
+  EXPECT_NEAR(LogarithmSigma(options), std::hypot(std::hypot(0.12, 0.05), 0.06), 0.005);
 }
 
 }  // namespace

@@ -2,64 +2,92 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/terrain/gradient_noise.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <cstddef>
+
+#include "regolith/terrain/lattice_hash_internal.h"
 
 namespace regolith {
 namespace {
 
-constexpr int kDirectionBits = 8;
-constexpr size_t kDirections = size_t{1} << kDirectionBits;
+// So few posts share an integer base that single precision resolves their places.
+constexpr int kRun = 128;
 
-struct Direction {
-  double x;
-  double y;
-};
+template <typename Real>
+Real Fade(Real t) {
+  return t * t * t * (t * (t * Real{6} - Real{15}) + Real{10});
+}
 
-std::array<Direction, kDirections> MakeDirections() {
-  std::array<Direction, kDirections> directions{};
-  for (size_t i = 0; i < kDirections; ++i) {
-    const double angle = 2.0 * M_PI * (static_cast<double>(i) + 0.5) / kDirections;
-    directions[i] = {std::cos(angle), std::sin(angle)};
+// The dot product of a corner's gradient, uniform in [-1, 1)², with the way from it.
+template <typename Real>
+Real Corner(uint32_t key, Real dx, Real dy) {
+  constexpr Real kScale = Real{1} / Real{32768};
+  const uint32_t hash = LatticeHash(key);
+  const Real gradient_x =
+      static_cast<Real>(static_cast<int32_t>(hash & 0xffffU)) * kScale - Real{1};
+  const Real gradient_y = static_cast<Real>(static_cast<int32_t>(hash >> 16)) * kScale - Real{1};
+  return gradient_x * dx + gradient_y * dy;
+}
+
+template <typename Real>
+Real Blend(uint32_t key, Real dx, Real dy) {
+  const Real low_left = Corner(key, dx, dy);
+  const Real low_right = Corner(key + kColumnFactor, dx - Real{1}, dy);
+  const Real high_left = Corner(key + kRowFactor, dx, dy - Real{1});
+  const Real high_right = Corner(key + kColumnFactor + kRowFactor, dx - Real{1}, dy - Real{1});
+  const Real fade_x = Fade(dx);
+  const Real low = low_left + fade_x * (low_right - low_left);
+  const Real high = high_left + fade_x * (high_right - high_left);
+  return low + Fade(dy) * (high - low);
+}
+
+uint32_t Wrapped(double integer) { return static_cast<uint32_t>(static_cast<int64_t>(integer)); }
+
+template <typename Real>
+void AddRun(uint32_t seed, const NoiseRow& row, Real amplitude, Real* out) {
+  // From the lowest integers of the run every way is positive, so that truncation is floor.
+  const double base_x = std::floor(std::min(row.x, row.x + row.count * row.step_x));
+  const double base_y = std::floor(std::min(row.y, row.y + row.count * row.step_y));
+  const uint32_t key = seed + Wrapped(base_x) * kColumnFactor + Wrapped(base_y) * kRowFactor;
+  const auto x = static_cast<Real>(row.x - base_x);
+  const auto y = static_cast<Real>(row.y - base_y);
+  const auto step_x = static_cast<Real>(row.step_x);
+  const auto step_y = static_cast<Real>(row.step_y);
+  for (int i = 0; i < row.count; ++i) {
+    const Real u = x + static_cast<Real>(i) * step_x;
+    const Real v = y + static_cast<Real>(i) * step_y;
+    const auto column = static_cast<int32_t>(u);
+    const auto line = static_cast<int32_t>(v);
+    const uint32_t corner = key + static_cast<uint32_t>(column) * kColumnFactor +
+                            static_cast<uint32_t>(line) * kRowFactor;
+    out[i] += amplitude * Blend(corner, u - static_cast<Real>(column), v - static_cast<Real>(line));
   }
-  return directions;
 }
 
-// A multiply–xor hash of two lattice coordinates; four are needed for each value, so it is kept
-// shorter than Scramble of core.
-uint64_t LatticeHash(uint64_t seed, int64_t column, int64_t row) {
-  uint64_t hash = seed ^ (static_cast<uint64_t>(column) * 0x9e3779b97f4a7c15ULL) ^
-                  (static_cast<uint64_t>(row) * 0xc2b2ae3d27d4eb4fULL);
-  hash = (hash ^ (hash >> 32)) * 0xd6e8feb86659fd93ULL;
-  return hash ^ (hash >> 29);
+template <typename Real>
+void AddRow(uint32_t seed, const NoiseRow& row, Real amplitude, Real* out) {
+  for (int first = 0; first < row.count; first += kRun) {
+    const NoiseRow run{row.x + first * row.step_x, row.y + first * row.step_y, row.step_x,
+                       row.step_y, std::min(kRun, row.count - first)};
+    AddRun(seed, run, amplitude, out + first);
+  }
 }
-
-double Corner(uint64_t seed, int64_t column, int64_t row, double dx, double dy) {
-  static const std::array<Direction, kDirections> kTable = MakeDirections();
-  const Direction& gradient = kTable[(LatticeHash(seed, column, row) >> 20) & (kDirections - 1)];
-  return gradient.x * dx + gradient.y * dy;
-}
-
-double Fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
 
 }  // namespace
 
-double GradientNoise(uint64_t seed, double x, double y) {
+double GradientNoise(uint32_t seed, double x, double y) {
   const double floor_x = std::floor(x);
   const double floor_y = std::floor(y);
-  const auto column = static_cast<int64_t>(floor_x);
-  const auto row = static_cast<int64_t>(floor_y);
-  const double dx = x - floor_x;
-  const double dy = y - floor_y;
-  const double fade_x = Fade(dx);
-  const double low_left = Corner(seed, column, row, dx, dy);
-  const double low_right = Corner(seed, column + 1, row, dx - 1.0, dy);
-  const double high_left = Corner(seed, column, row + 1, dx, dy - 1.0);
-  const double high_right = Corner(seed, column + 1, row + 1, dx - 1.0, dy - 1.0);
-  const double low = low_left + fade_x * (low_right - low_left);
-  const double high = high_left + fade_x * (high_right - high_left);
-  return low + Fade(dy) * (high - low);
+  return Blend(seed + Wrapped(floor_x) * kColumnFactor + Wrapped(floor_y) * kRowFactor, x - floor_x,
+               y - floor_y);
+}
+
+void AddGradientNoise(uint32_t seed, const NoiseRow& row, float amplitude, float* out) {
+  AddRow(seed, row, amplitude, out);
+}
+
+void AddGradientNoise(uint32_t seed, const NoiseRow& row, double amplitude, double* out) {
+  AddRow(seed, row, amplitude, out);
 }
 
 }  // namespace regolith

@@ -10,8 +10,6 @@
 #include "regolith/core/random.h"
 
 namespace regolith {
-namespace {
-
 std::vector<double> HeightDifferences(const HeightFunction& height, const Eigen::AlignedBox2d& box,
                                       double distance, int samples) {
   REGOLITH_CHECK(samples > 0 && distance > 0.0, samples, " samples over ", distance, " m");
@@ -28,24 +26,27 @@ std::vector<double> HeightDifferences(const HeightFunction& height, const Eigen:
   return differences;
 }
 
-}  // namespace
+double RootMeanSquare(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+double MedianMagnitude(std::vector<double> values) {
+  for (double& value : values) value = std::abs(value);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 double RmsDeviation(const HeightFunction& height, const Eigen::AlignedBox2d& box, double distance,
                     int samples) {
-  double sum = 0.0;
-  for (const double difference : HeightDifferences(height, box, distance, samples)) {
-    sum += difference * difference;
-  }
-  return std::sqrt(sum / samples);
+  return RootMeanSquare(HeightDifferences(height, box, distance, samples));
 }
 
 double MedianSlope(const HeightFunction& height, const Eigen::AlignedBox2d& box, double distance,
                    int samples) {
-  std::vector<double> differences = HeightDifferences(height, box, distance, samples);
-  for (double& difference : differences) difference = std::abs(difference);
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  return std::atan(*middle / distance);
+  return std::atan(MedianMagnitude(HeightDifferences(height, box, distance, samples)) / distance);
 }
 
 double HurstExponent(const HeightFunction& height, const Eigen::AlignedBox2d& box, double shorter,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -13,6 +14,14 @@ namespace regolith {
 
 /// A height (m) at x, y (m).
 using HeightFunction = std::function<double(double x, double y)>;
+
+/// Height differences (m) over `distance` m, of profiles in all directions at `samples` seeded
+/// places of `box`: the same places for every function.
+std::vector<double> HeightDifferences(const HeightFunction& height, const Eigen::AlignedBox2d& box,
+                                      double distance, int samples);
+
+double RootMeanSquare(const std::vector<double>& values);
+double MedianMagnitude(std::vector<double> values);
 
 /// Allan (RMS) deviation ν(L) of the height over `distance` m, from profiles in all directions at
 /// `samples` seeded places of `box` (Shepard et al. 2001).

@@ -4,28 +4,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "regolith/core/random.h"
 #include "regolith/terrain/albedo.h"
 #include "regolith/terrain/craters.h"
 #include "regolith/terrain/dem.h"
 #include "regolith/terrain/fractal_noise.h"
+#include "regolith/terrain/rock_shapes.h"
+#include "regolith/terrain/rocks.h"
 #include "regolith/terrain/slope_statistics.h"
 
 namespace regolith {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kFitSamples = 6000;
+constexpr int kFitSamples = 30000;
+constexpr double kFitSpacing = 0.05;  // m
 // Posts carry waves from twice their spacing on, and craters that span four of them.
 constexpr double kWavelengthsPerPost = 2.0;
 constexpr double kCraterPosts = 4.0;
 // A mesh reaches beyond the box of the path.
-constexpr double kSurroundings = 200.0;      // m
+constexpr double kSurroundings = 3000.0;     // m
 constexpr double kLargestSearchBox = 400.0;  // m, half of it
 
-// Relief and craters of the statistics; `largest` bounds both, for a model that has the rest.
+// Relief and craters of the statistics, scaled together.
 class Statistical {
  public:
   Statistical(const TerrainOptions& options, uint64_t seed, const Eigen::AlignedBox2d& box)
@@ -36,50 +38,77 @@ class Statistical {
   }
 
   double Relief(double x, double y, double spacing) const {
-    return relief_scale_ * relief_.At(x, y, kWavelengthsPerPost * spacing);
-  }
-  double Craters(double x, double y, double spacing) const {
-    return craters_.Height(x, y, kCraterPosts * spacing);
+    return relief_.At(x, y, kWavelengthsPerPost * spacing);
   }
   double Height(double x, double y, double spacing) const {
-    return Relief(x, y, spacing) + Craters(x, y, spacing);
+    return Relief(x, y, spacing) + craters_.Height(x, y, kCraterPosts * spacing);
   }
+  void AddTo(const PostBlock& block, double* heights) const {
+    relief_.AddTo(block, kWavelengthsPerPost * block.spacing, heights);
+    craters_.AddTo(block, kCraterPosts * block.spacing, heights);
+  }
+  const FractalNoise& relief() const { return relief_; }
+  const CraterField& craters() const { return craters_; }
 
  private:
   // Craters are part of the measured slopes: the relief gets what they leave. The figure grows
   // with the scale, so bisection finds it.
   void FitRelief(const ReliefOptions& options, const Eigen::AlignedBox2d& box) {
+    const HeightFunction shaped = [this](double x, double y) {
+      return craters_.Height(x, y, kCraterPosts * kFitSpacing);
+    };
+    const HeightFunction rough = [this](double x, double y) { return Relief(x, y, kFitSpacing); };
+    const std::vector<double> given = HeightDifferences(shaped, box, 1.0, kFitSamples);
+    const std::vector<double> scaled = HeightDifferences(rough, box, 1.0, kFitSamples);
     const double target = std::tan(options.slope_deg * kDegree);
     double low = 0.0;
     double high = 4.0 * target;
-    for (int i = 0; i < 14; ++i) {
-      relief_scale_ = 0.5 * (low + high);
-      const HeightFunction height = [this](double x, double y) { return Height(x, y, 0.05); };
+    for (int i = 0; i < 24; ++i) {
+      const double scale = 0.5 * (low + high);
+      std::vector<double> sum = given;
+      for (size_t k = 0; k < sum.size(); ++k) sum[k] += scale * scaled[k];
       const double figure = options.statistic == SlopeStatistic::kRms
-                                ? RmsDeviation(height, box, 1.0, kFitSamples)
-                                : std::tan(MedianSlope(height, box, 1.0, kFitSamples));
-      (figure > target ? high : low) = relief_scale_;
+                                ? RootMeanSquare(sum)
+                                : MedianMagnitude(std::move(sum));
+      (figure > target ? high : low) = scale;
     }
+    relief_.Scale(0.5 * (low + high));
   }
 
   FractalNoise relief_;
   CraterField craters_;
-  double relief_scale_ = 1.0;
 };
+
+std::vector<Rock> OnGround(std::vector<Rock> rocks, const Surface& surface) {
+  for (Rock& rock : rocks) rock.ground = surface.Height(rock.centre.x(), rock.centre.y(), 0.0);
+  return rocks;
+}
 
 class GeneratedSurface : public Surface {
  public:
   GeneratedSurface(const TerrainOptions& options, uint64_t seed, const Eigen::AlignedBox2d& box)
       : box_(box),
         statistical_(options, seed, box),
-        albedo_(options.albedo, StreamSeed(seed, "albedo")) {}
+        albedo_(options.albedo, StreamSeed(seed, "albedo")),
+        rocks_(options.rocks, StreamSeed(seed, "rocks"), statistical_.craters(), box),
+        rock_shapes_(MakeRockShapes(options.rocks.height_share)) {}
 
   double Height(double x, double y, double spacing) const override {
     return statistical_.Height(x, y, spacing);
   }
   double Albedo(double x, double y, double spacing) const override {
-    return albedo_.At(x, y, kWavelengthsPerPost * spacing);
+    return albedo_.At(x, y, spacing);
   }
+  void Sample(const PostBlock& block, std::vector<double>* heights,
+              std::vector<float>* albedo) const override {
+    heights->assign(block.size(), 0.0);
+    statistical_.AddTo(block, heights->data());
+    albedo_.Sample(block, albedo);
+  }
+  std::vector<Rock> Rocks(const Eigen::AlignedBox2d& area, double min_diameter) const override {
+    return OnGround(rocks_.Rocks(area, min_diameter), *this);
+  }
+  std::vector<RockShape> RockShapes() const override { return rock_shapes_; }
   bool Known(double x, double y, double margin) const override {
     return box_.contains(Eigen::AlignedBox2d(Eigen::Vector2d(x - margin, y - margin),
                                              Eigen::Vector2d(x + margin, y + margin)));
@@ -90,6 +119,8 @@ class GeneratedSurface : public Surface {
   Eigen::AlignedBox2d box_;
   Statistical statistical_;
   AlbedoField albedo_;
+  RockField rocks_;
+  std::vector<RockShape> rock_shapes_;
 };
 
 Eigen::AlignedBox2d SearchBox(const Dem& dem) {
@@ -115,7 +146,9 @@ class DemSurface : public Surface {
         craters_(BelowPixel(options, dem.spacing).craters, StreamSeed(seed, "dem craters"),
                  SearchBox(dem_), kSurroundings),
         longest_(2.0 * dem.spacing),
-        albedo_(options.albedo, StreamSeed(seed, "albedo")) {}
+        albedo_(options.albedo, StreamSeed(seed, "albedo")),
+        rocks_(options.rocks, StreamSeed(seed, "rocks"), craters_, SearchBox(dem_)),
+        rock_shapes_(MakeRockShapes(options.rocks.height_share)) {}
 
   double Height(double x, double y, double spacing) const override {
     double height = dem_.Height(x, y) + craters_.Height(x, y, kCraterPosts * spacing);
@@ -126,8 +159,25 @@ class DemSurface : public Surface {
     return height;
   }
   double Albedo(double x, double y, double spacing) const override {
-    return albedo_.At(x, y, kWavelengthsPerPost * spacing);
+    return albedo_.At(x, y, spacing);
   }
+  void Sample(const PostBlock& block, std::vector<double>* heights,
+              std::vector<float>* albedo) const override {
+    heights->assign(block.size(), 0.0);
+    dem_.AddTo(block, heights->data());
+    craters_.AddTo(block, kCraterPosts * block.spacing, heights->data());
+    if (kWavelengthsPerPost * block.spacing < longest_) {
+      full_.relief().AddTo(block, kWavelengthsPerPost * block.spacing, heights->data());
+      std::vector<double> coarse(block.size(), 0.0);
+      full_.relief().AddTo(block, longest_, coarse.data());
+      for (size_t i = 0; i < coarse.size(); ++i) (*heights)[i] -= coarse[i];
+    }
+    albedo_.Sample(block, albedo);
+  }
+  std::vector<Rock> Rocks(const Eigen::AlignedBox2d& area, double min_diameter) const override {
+    return OnGround(rocks_.Rocks(area, min_diameter), *this);
+  }
+  std::vector<RockShape> RockShapes() const override { return rock_shapes_; }
   bool Known(double x, double y, double margin) const override {
     return dem_.HasData(x, y, margin);
   }
@@ -144,6 +194,8 @@ class DemSurface : public Surface {
   CraterField craters_;
   double longest_;
   AlbedoField albedo_;
+  RockField rocks_;
+  std::vector<RockShape> rock_shapes_;
 };
 
 }  // namespace
@@ -178,6 +230,52 @@ std::unique_ptr<Surface> CreateDemSurface(const HeightGrid& dem, const TerrainOp
   return std::make_unique<DemSurface>(dem, options, seed);
 }
 
+namespace {
+
+// The blocks in which a grid is sampled, posts a side.
+constexpr int kTile = 128;
+
+void SampleTiles(const Surface& surface, const PostBlock& whole, double ground, HeightGrid* grid) {
+  std::vector<double> heights;
+  std::vector<float> albedo;
+  for (int row = 0; row < whole.rows; row += kTile) {
+    for (int column = 0; column < whole.columns; column += kTile) {
+      const PostBlock tile{whole.x + column * whole.spacing, whole.y + row * whole.spacing,
+                           whole.spacing, std::min(kTile, whole.columns - column),
+                           std::min(kTile, whole.rows - row)};
+      surface.Sample(tile, &heights, &albedo);
+      const double* height = heights.data();
+      for (int j = 0; j < tile.rows; ++j) {
+        for (int i = 0; i < tile.columns; ++i) {
+          grid->At(column + i, whole.rows - 1 - row - j) = static_cast<float>(*height++ - ground);
+        }
+      }
+    }
+  }
+}
+
+void RaiseRock(const Rock& rock, const RockTops& tops, const PostBlock& whole, double ground,
+               HeightGrid* grid) {
+  const double reach = tops.reach() * rock.diameter;
+  const auto first = [&](double from) {
+    return std::max(0, static_cast<int>(std::ceil((from - reach) / whole.spacing)));
+  };
+  const auto last = [&](double from, int count) {
+    return std::min(count - 1, static_cast<int>(std::floor((from + reach) / whole.spacing)));
+  };
+  const Eigen::Vector2d from = rock.centre - Eigen::Vector2d(whole.x, whole.y);
+  for (int j = first(from.y()); j <= last(from.y(), whole.rows); ++j) {
+    for (int i = first(from.x()); i <= last(from.x(), whole.columns); ++i) {
+      float& height = grid->At(i, whole.rows - 1 - j);
+      const double top =
+          tops.Top(rock, whole.x + i * whole.spacing, whole.y + j * whole.spacing) - ground;
+      height = std::max(height, static_cast<float>(top));
+    }
+  }
+}
+
+}  // namespace
+
 HeightGrid SampleSurface(const Surface& surface, const Eigen::AlignedBox2d& box, double spacing,
                          const Eigen::Vector3d& origin) {
   HeightGrid grid;
@@ -186,12 +284,14 @@ HeightGrid SampleSurface(const Surface& surface, const Eigen::AlignedBox2d& box,
   grid.spacing = spacing;
   grid.origin = Eigen::Vector2d(box.min().x(), box.max().y()) - origin.head<2>();
   grid.heights.resize(static_cast<size_t>(grid.columns) * static_cast<size_t>(grid.rows));
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      const double x = box.min().x() + column * spacing;
-      const double y = box.max().y() - row * spacing;
-      grid.At(column, row) = static_cast<float>(surface.Height(x, y, spacing) - origin.z());
-    }
+  const PostBlock whole{box.min().x(), box.max().y() - (grid.rows - 1) * spacing, spacing,
+                        grid.columns, grid.rows};
+  SampleTiles(surface, whole, origin.z(), &grid);
+  const RockTops tops(surface.RockShapes());
+  constexpr double kWidestRock = 20.0;  // m, as RockOptions allows
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(tops.reach() * kWidestRock);
+  for (const Rock& rock : surface.Rocks({box.min() - margin, box.max() + margin}, 0.05)) {
+    RaiseRock(rock, tops, whole, origin.z(), &grid);
   }
   return grid;
 }

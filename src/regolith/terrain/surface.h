@@ -10,20 +10,11 @@
 #include <Eigen/Geometry>
 
 #include "regolith/terrain/height_grid.h"
+#include "regolith/terrain/post_block.h"
 #include "regolith/terrain/rock.h"
 #include "regolith/terrain/terrain_options.h"
 
 namespace regolith {
-
-/// Posts on a lattice: post (i, j) lies at x + i · spacing, y + j · spacing (m, frame `map`) and
-/// has the index j · columns + i.
-struct PostBlock {
-  double x = 0.0;
-  double y = 0.0;
-  double spacing = 1.0;
-  int columns = 0;
-  int rows = 0;
-};
 
 /// The ground as a function of place. Frame `map`: x east, y north, z up, m.
 class Surface {
@@ -66,8 +57,9 @@ std::unique_ptr<Surface> CreateGeneratedSurface(const TerrainOptions& options, u
 std::unique_ptr<Surface> CreateDemSurface(const HeightGrid& dem, const TerrainOptions& options,
                                           uint64_t seed);
 
-/// Heights of `surface` over `box` at posts `spacing` m apart; coordinates are shifted by -`origin`
-/// (m, x y z), so that a terrain can be written in the frame of a path.
+/// Heights of the top of `surface`, rocks included, over `box` at posts `spacing` m apart;
+/// coordinates are shifted by -`origin` (m, x y z), so that a terrain can be written in the frame
+/// of a path.
 HeightGrid SampleSurface(const Surface& surface, const Eigen::AlignedBox2d& box, double spacing,
                          const Eigen::Vector3d& origin);
 

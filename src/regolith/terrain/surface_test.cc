@@ -74,6 +74,22 @@ TEST(DemSurface, AddsReliefOnlyBelowThePixel) {
             0.5 * RmsDeviation(HeightOf(*generated), box, 40.0, 20000));
 }
 
+TEST(GeneratedSurface, SamplesBlocksAsItDoesPosts) {
+  const auto surface = CreateGeneratedSurface(TerrainOptions{}, 5, kBox);
+  for (const double spacing : {0.005, 0.04, 5.12}) {
+    const PostBlock block{-3.0, 2.0, spacing, 129, 129};
+    std::vector<double> heights;
+    std::vector<float> albedo;
+    surface->Sample(block, &heights, &albedo);
+    for (size_t k = 0; k < heights.size(); k += 31) {
+      const double x = block.x + static_cast<double>(k % 129) * spacing;
+      const double y = block.y + static_cast<double>(k / 129) * spacing;
+      EXPECT_NEAR(heights[k], surface->Height(x, y, spacing), 1e-5) << spacing;
+      EXPECT_NEAR(albedo[k], surface->Albedo(x, y, spacing), 1e-4) << spacing;
+    }
+  }
+}
+
 TEST(SampleSurface, IsNorthUpAndShifted) {
   const auto surface = CreateGeneratedSurface(TerrainOptions{}, 5, kBox);
   const Eigen::AlignedBox2d box(Eigen::Vector2d(1, 2), Eigen::Vector2d(4, 4));
