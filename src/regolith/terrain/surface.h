@@ -15,8 +15,8 @@
 
 namespace regolith {
 
-/// Posts on a lattice: post (i, j) lies at x + i · spacing, y + j · spacing (m, frame `map`) and has
-/// the index j · columns + i.
+/// Posts on a lattice: post (i, j) lies at x + i · spacing, y + j · spacing (m, frame `map`) and
+/// has the index j · columns + i.
 struct PostBlock {
   double x = 0.0;
   double y = 0.0;
