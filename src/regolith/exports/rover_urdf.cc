@@ -519,8 +519,9 @@ std::string WriteRobot(const ScenarioOptions& options, bool xacro) {
     AddLidar(text, options.lidar, xml);
     AddImu(text, xml);
   });
-  robot.Call(drive, {"front", "odom", "true"});
-  robot.Call(drive, {"rear", "odom_rear", "false"});
+  // 1 and 0: xacro would write `true` as Python's True.
+  robot.Call(drive, {"front", "odom", "1"});
+  robot.Call(drive, {"rear", "odom_rear", "0"});
   robot.Part([](const Text&, XmlWriter* xml) { AddModelPlugins(xml); });
   return robot.Finish();
 }
