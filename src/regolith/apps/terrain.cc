@@ -19,6 +19,7 @@
 #include "regolith/core/check.h"
 #include "regolith/core/error.h"
 #include "regolith/core/log.h"
+#include "regolith/core/random.h"
 #include "regolith/core/stop.h"
 #include "regolith/core/thread_pool.h"
 #include "regolith/core/version.h"
@@ -31,7 +32,6 @@
 #include "regolith/io/atomic_file.h"
 #include "regolith/io/image_file.h"
 #include "regolith/io/raster.h"
-#include "regolith/terrain/slope_statistics.h"
 #include "regolith/terrain/surface.h"
 
 namespace regolith {
@@ -262,20 +262,41 @@ void FillNoData(HeightGrid* grid) {
   }
 }
 
+// Slopes of profiles in all directions at seeded places; holes, which a surface fills, are left
+// out.
+std::vector<double> SampleSlopes(const Ground& ground, double baseline) {
+  std::vector<double> slopes;
+  Random random(ground.options.seed, "terrain slopes");
+  const double half = 0.5 * (ground.side - baseline);
+  for (int i = 0; i < kSlopeSamples; ++i) {
+    const double x = ground.centre.x() + random.Uniform(-half, half);
+    const double y = ground.centre.y() + random.Uniform(-half, half);
+    const double direction = random.Uniform(0.0, M_PI);
+    if (ground.findings.no_data > 0 && !ground.surface->Known(x, y, baseline)) continue;
+    const double dx = 0.5 * baseline * std::cos(direction);
+    const double dy = 0.5 * baseline * std::sin(direction);
+    const double rise =
+        ground.surface->Height(x + dx, y + dy, 0.0) - ground.surface->Height(x - dx, y - dy, 0.0);
+    slopes.push_back(std::abs(rise) / baseline);
+  }
+  return slopes;
+}
+
 Json SlopesJson(const Ground& ground) {
-  const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * ground.side);
-  const Eigen::AlignedBox2d box(ground.centre - half, ground.centre + half);
-  const HeightFunction height = [&](double x, double y) {
-    return ground.surface->Height(x, y, 0.0);
-  };
   Json json;
   for (const double baseline : kSlopeBaselines) {
     const std::string key = Concatenate(baseline, "_m");
     json[key] = nullptr;
     if (4.0 * baseline > ground.side) continue;
-    const double rms = std::atan(RmsDeviation(height, box, baseline, kSlopeSamples) / baseline);
-    const double median = MedianSlope(height, box, baseline, kSlopeSamples);
-    json[key] = {{"rms_deg", rms * kDegreesPerRadian}, {"median_deg", median * kDegreesPerRadian}};
+    std::vector<double> slopes = SampleSlopes(ground, baseline);
+    if (slopes.size() < 100) continue;
+    double sum = 0.0;
+    for (const double slope : slopes) sum += slope * slope;
+    const double rms = std::atan(std::sqrt(sum / static_cast<double>(slopes.size())));
+    const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
+    std::nth_element(slopes.begin(), middle, slopes.end());
+    json[key] = {{"rms_deg", rms * kDegreesPerRadian},
+                 {"median_deg", std::atan(*middle) * kDegreesPerRadian}};
   }
   return json;
 }
