@@ -11,6 +11,7 @@
 #include "regolith/apps/run.h"
 #include "regolith/apps/run_setup.h"
 #include "regolith/apps/simulate.h"
+#include "regolith/apps/terrain.h"
 #include "regolith/core/error.h"
 #include "regolith/core/log.h"
 #include "regolith/core/stop.h"
@@ -42,6 +43,45 @@ void AddSettings(CLI::App* app, Arguments& arguments) {
       ->check(CLI::Range(0, 256))
       ->type_name("N")
       ->capture_default_str();
+}
+
+void AddTerrain(CLI::App& program, std::map<CLI::App*, Command>& commands) {
+  const auto arguments = std::make_shared<regolith::TerrainArguments>();
+  CLI::App* app = program.add_subcommand(
+      "terrain", "Read or generate ground; export it for Gazebo, RViz and 3-D programs");
+  app->add_option("--dem", arguments->dem, "Elevation model: any raster that GDAL reads")
+      ->type_name("FILE");
+  app->add_option("--statistics", arguments->statistics,
+                  "moon or mars: ground generated from statistics or, with --dem, added below its "
+                  "pixels (default there: the body that the file names)")
+      ->type_name("BODY");
+  app->add_option("--crop", arguments->crop,
+                  "Centre column, centre row and side, pixels; default: the central 2500 square of "
+                  "a model, all of generated ground")
+      ->expected(3)
+      ->type_name("X Y SIZE");
+  app->add_option("--side", arguments->side, "Metres a side of generated ground")
+      ->type_name("M")
+      ->capture_default_str();
+  app->add_option("--pixel", arguments->pixel, "Metres a pixel of generated ground")
+      ->type_name("M")
+      ->capture_default_str();
+  app->add_option("--mesh-posts", arguments->mesh_posts,
+                  "Posts a side of height map and meshes; 2^n + 1 for a height map")
+      ->type_name("N")
+      ->capture_default_str();
+  app->add_option("--export", arguments->exports,
+                  "Of heightmap, dae, obj, sdf, urdf, with commas; sdf brings the height map")
+      ->delimiter(',')
+      ->type_name("LIST");
+  app->add_option("--seed", arguments->seed, "Another seed is another world")->type_name("N");
+  app->add_flag("--repair", arguments->repair, "Fill what the elevation model lacks");
+  AddSettings(app, *arguments);
+  AddOutput(app, *arguments);
+  app->footer(
+      "Example:\n  regolith terrain --statistics moon --export heightmap,dae,sdf,urdf --out "
+      "out/regolith_world");
+  commands[app] = [arguments] { return regolith::Terrain(*arguments); };
 }
 
 void AddSimulate(CLI::App& program, std::map<CLI::App*, Command>& commands) {
@@ -166,6 +206,7 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", regolith::ProgramVersion());
   program.require_subcommand(1);
   std::map<CLI::App*, Command> commands;
+  AddTerrain(program, commands);
   AddSimulate(program, commands);
   AddRun(program, commands);
   AddEvaluate(program, commands);
