@@ -162,7 +162,6 @@ class EmbreeScene : public Scene {
     Load(*rays, &ray, valid);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcOccluded16(valid, scene_, &context, &ray);
     for (int i = 0; i < kPacketSize; ++i) {
       rays->distance[i] = valid[i] != 0 && ray.tfar[i] < 0.0F ? 0.0F : kInfinity;
