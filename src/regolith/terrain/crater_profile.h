@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -17,15 +18,15 @@ inline constexpr int kProfileKnots = 64;
 /// continuously differentiable, zero from kCraterReach on.
 struct CraterProfile {
   double depth = 1.0;  ///< as a share of the fresh crater's
-  std::array<float, kProfileKnots + 2> height{};
-  std::array<float, kProfileKnots + 2> slope{};  ///< by knot
+  float height[kProfileKnots + 2] = {};
+  float slope[kProfileKnots + 2] = {};  ///< by knot
 };
 
 /// The height at `x` ≥ 0 radii (Hermite's cubic between the knots).
 inline float ProfileHeight(const CraterProfile& profile, float x) {
   constexpr auto kScale = static_cast<float>(kProfileKnots / kCraterReach);
   constexpr auto kLast = static_cast<float>(kProfileKnots);
-  const float t = x * kScale < kLast ? x * kScale : kLast;
+  const float t = std::min(x * kScale, kLast);
   const auto knot = static_cast<int32_t>(t);
   const float f = t - static_cast<float>(knot);
   const auto i = static_cast<uint32_t>(knot);

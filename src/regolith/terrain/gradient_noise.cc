@@ -64,12 +64,50 @@ void AddRun(uint32_t seed, const NoiseRow& row, Real amplitude, Real* out) {
   }
 }
 
-template <typename Real>
-void AddRow(uint32_t seed, const NoiseRow& row, Real amplitude, Real* out) {
-  for (int first = 0; first < row.count; first += kRun) {
-    const NoiseRow run{row.x + first * row.step_x, row.y + first * row.step_y, row.step_x,
-                       row.step_y, std::min(kRun, row.count - first)};
-    AddRun(seed, run, amplitude, out + first);
+// A run within one cell of the lattice: four gradients, then arithmetic alone.
+void AddCell(uint32_t key, double x, double y, const NoiseRow& row, double amplitude, double* out) {
+  double gradient_x[4];
+  double gradient_y[4];
+  const uint32_t keys[] = {key, key + kColumnFactor, key + kRowFactor,
+                           key + kColumnFactor + kRowFactor};
+  for (int k = 0; k < 4; ++k) {
+    gradient_x[k] = Corner(keys[k], 1.0, 0.0);
+    gradient_y[k] = Corner(keys[k], 0.0, 1.0);
+  }
+  for (int i = 0; i < row.count; ++i) {
+    const double dx = x + i * row.step_x;
+    const double dy = y + i * row.step_y;
+    const double low_left = gradient_x[0] * dx + gradient_y[0] * dy;
+    const double low_right = gradient_x[1] * (dx - 1.0) + gradient_y[1] * dy;
+    const double high_left = gradient_x[2] * dx + gradient_y[2] * (dy - 1.0);
+    const double high_right = gradient_x[3] * (dx - 1.0) + gradient_y[3] * (dy - 1.0);
+    const double fade_x = Fade(dx);
+    const double low = low_left + fade_x * (low_right - low_left);
+    const double high = high_left + fade_x * (high_right - high_left);
+    out[i] += amplitude * (low + Fade(dy) * (high - low));
+  }
+}
+
+// Long waves, which need double precision, have many posts to a cell: halves until they share one.
+void AddLongRun(uint32_t seed, const NoiseRow& row, double amplitude, double* out) {
+  constexpr int kFewest = 8;
+  const double column = std::floor(row.x);
+  const double line = std::floor(row.y);
+  const int last = row.count - 1;
+  if (std::floor(row.x + last * row.step_x) == column &&
+      std::floor(row.y + last * row.step_y) == line) {
+    const uint32_t key = seed + Wrapped(column) * kColumnFactor + Wrapped(line) * kRowFactor;
+    AddCell(key, row.x - column, row.y - line, row, amplitude, out);
+  } else if (row.count < kFewest) {
+    AddRun(seed, row, amplitude, out);
+  } else {
+    const int half = row.count / 2;
+    NoiseRow first = row;
+    first.count = half;
+    const NoiseRow second{row.x + half * row.step_x, row.y + half * row.step_y, row.step_x,
+                          row.step_y, row.count - half};
+    AddLongRun(seed, first, amplitude, out);
+    AddLongRun(seed, second, amplitude, out + half);
   }
 }
 
@@ -83,11 +121,15 @@ double GradientNoise(uint32_t seed, double x, double y) {
 }
 
 void AddGradientNoise(uint32_t seed, const NoiseRow& row, float amplitude, float* out) {
-  AddRow(seed, row, amplitude, out);
+  for (int first = 0; first < row.count; first += kRun) {
+    const NoiseRow run{row.x + first * row.step_x, row.y + first * row.step_y, row.step_x,
+                       row.step_y, std::min(kRun, row.count - first)};
+    AddRun(seed, run, amplitude, out + first);
+  }
 }
 
 void AddGradientNoise(uint32_t seed, const NoiseRow& row, double amplitude, double* out) {
-  AddRow(seed, row, amplitude, out);
+  if (row.count > 0) AddLongRun(seed, row, amplitude, out);
 }
 
 }  // namespace regolith

@@ -7,9 +7,11 @@
 
 #include "regolith/core/random.h"
 #include "regolith/terrain/albedo.h"
+#include "regolith/terrain/clods.h"
 #include "regolith/terrain/craters.h"
 #include "regolith/terrain/dem.h"
 #include "regolith/terrain/fractal_noise.h"
+#include "regolith/terrain/ripples.h"
 #include "regolith/terrain/rock_shapes.h"
 #include "regolith/terrain/rocks.h"
 #include "regolith/terrain/slope_statistics.h"
@@ -33,7 +35,9 @@ class Statistical {
   Statistical(const TerrainOptions& options, uint64_t seed, const Eigen::AlignedBox2d& box)
       : relief_(StreamSeed(seed, "relief"), options.relief.longest_wavelength,
                 options.relief.shortest_wavelength, options.relief.hurst),
-        craters_(options.craters, StreamSeed(seed, "craters"), box, kSurroundings) {
+        craters_(options.craters, StreamSeed(seed, "craters"), box, kSurroundings),
+        ripples_(options.ripples, StreamSeed(seed, "ripples")),
+        clods_(options.clods, StreamSeed(seed, "clods")) {
     FitRelief(options.relief, box);
   }
 
@@ -41,11 +45,21 @@ class Statistical {
     return relief_.At(x, y, kWavelengthsPerPost * spacing);
   }
   double Height(double x, double y, double spacing) const {
-    return Relief(x, y, spacing) + craters_.Height(x, y, kCraterPosts * spacing);
+    return Relief(x, y, spacing) + craters_.Height(x, y, kCraterPosts * spacing) +
+           Fine(x, y, spacing);
   }
   void AddTo(const PostBlock& block, double* heights) const {
     relief_.AddTo(block, kWavelengthsPerPost * block.spacing, heights);
     craters_.AddTo(block, kCraterPosts * block.spacing, heights);
+    AddFineTo(block, heights);
+  }
+  /// What is below any orbital pixel: ripples and clods.
+  double Fine(double x, double y, double spacing) const {
+    return ripples_.Height(x, y, spacing) + clods_.Height(x, y, spacing);
+  }
+  void AddFineTo(const PostBlock& block, double* heights) const {
+    ripples_.AddTo(block, heights);
+    clods_.AddTo(block, heights);
   }
   const FractalNoise& relief() const { return relief_; }
   const CraterField& craters() const { return craters_; }
@@ -55,7 +69,7 @@ class Statistical {
   // with the scale, so bisection finds it.
   void FitRelief(const ReliefOptions& options, const Eigen::AlignedBox2d& box) {
     const HeightFunction shaped = [this](double x, double y) {
-      return craters_.Height(x, y, kCraterPosts * kFitSpacing);
+      return craters_.Height(x, y, kCraterPosts * kFitSpacing) + ripples_.Height(x, y, kFitSpacing);
     };
     const HeightFunction rough = [this](double x, double y) { return Relief(x, y, kFitSpacing); };
     const std::vector<double> given = HeightDifferences(shaped, box, 1.0, kFitSamples);
@@ -77,6 +91,8 @@ class Statistical {
 
   FractalNoise relief_;
   CraterField craters_;
+  RippleField ripples_;
+  ClodField clods_;
 };
 
 std::vector<Rock> OnGround(std::vector<Rock> rocks, const Surface& surface) {
@@ -151,7 +167,8 @@ class DemSurface : public Surface {
         rock_shapes_(MakeRockShapes(options.rocks.height_share)) {}
 
   double Height(double x, double y, double spacing) const override {
-    double height = dem_.Height(x, y) + craters_.Height(x, y, kCraterPosts * spacing);
+    double height = dem_.Height(x, y) + craters_.Height(x, y, kCraterPosts * spacing) +
+                    full_.Fine(x, y, spacing);
     // What the statistics have below the pixel: all of their relief without its long waves.
     if (2.0 * spacing < longest_) {
       height += full_.Relief(x, y, spacing) - full_.Relief(x, y, 0.5 * longest_);
@@ -166,6 +183,7 @@ class DemSurface : public Surface {
     heights->assign(block.size(), 0.0);
     dem_.AddTo(block, heights->data());
     craters_.AddTo(block, kCraterPosts * block.spacing, heights->data());
+    full_.AddFineTo(block, heights->data());
     if (kWavelengthsPerPost * block.spacing < longest_) {
       full_.relief().AddTo(block, kWavelengthsPerPost * block.spacing, heights->data());
       std::vector<double> coarse(block.size(), 0.0);

@@ -3,6 +3,7 @@
 #include "regolith/terrain/surface.h"
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -87,6 +88,49 @@ TEST(GeneratedSurface, SamplesBlocksAsItDoesPosts) {
       EXPECT_NEAR(heights[k], surface->Height(x, y, spacing), 1e-5) << spacing;
       EXPECT_NEAR(albedo[k], surface->Albedo(x, y, spacing), 1e-4) << spacing;
     }
+  }
+}
+
+TEST(GeneratedSurface, LaysRocksOnTheGround) {
+  const auto surface = CreateGeneratedSurface(TerrainOptions{}, 5, kBox);
+  const std::vector<Rock> rocks =
+      surface->Rocks({Eigen::Vector2d(-5, -5), Eigen::Vector2d(5, 5)}, 0.1);
+  ASSERT_GT(rocks.size(), 5U);
+  const size_t shapes = surface->RockShapes().size();
+  for (const Rock& rock : rocks) {
+    EXPECT_EQ(rock.ground, surface->Height(rock.centre.x(), rock.centre.y(), 0.0));
+    EXPECT_LT(rock.shape, shapes);
+  }
+}
+
+TEST(DemSurface, SamplesBlocksAsItDoesPosts) {
+  HeightGrid dem;
+  dem.columns = 50;
+  dem.rows = 40;
+  dem.spacing = 2.0;
+  for (int k = 0; k < 2000; ++k) dem.heights.push_back(static_cast<float>(std::sin(0.37 * k)));
+  const auto surface = CreateDemSurface(dem, TerrainOptions{}, 5);
+  for (const double spacing : {0.005, 0.32, 2.56}) {
+    const PostBlock block{-47.0, 20.0, spacing, 60, 60};
+    std::vector<double> heights;
+    std::vector<float> albedo;
+    surface->Sample(block, &heights, &albedo);
+    for (size_t k = 0; k < heights.size(); k += 7) {
+      const double x = block.x + static_cast<double>(k % 60) * spacing;
+      const double y = block.y + static_cast<double>(k / 60) * spacing;
+      EXPECT_NEAR(heights[k], surface->Height(x, y, spacing), 1e-5) << spacing;
+    }
+  }
+}
+
+TEST(SampleSurface, IsTheTopOfTheRocks) {
+  const auto surface = CreateGeneratedSurface(TerrainOptions{}, 5, kBox);
+  const Eigen::AlignedBox2d box(Eigen::Vector2d(-5, -5), Eigen::Vector2d(5, 5));
+  const HeightGrid grid = SampleSurface(*surface, box, 0.05, Eigen::Vector3d::Zero());
+  for (const Rock& rock : surface->Rocks(box, 0.3)) {
+    const auto column = static_cast<int>(std::lround((rock.centre.x() + 5.0) / 0.05));
+    const auto row = static_cast<int>(std::lround((5.0 - rock.centre.y()) / 0.05));
+    EXPECT_GT(grid.At(column, row), rock.ground + 0.2 * rock.diameter);
   }
 }
 
