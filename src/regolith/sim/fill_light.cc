@@ -37,7 +37,8 @@ float Arriving(const Scene& scene, const Photometry& photometry, const RayPacket
   const Eigen::Vector3f direction = rays.Direction(lane);
   if (rays.object[lane] == kNothing) return photometry.SkyWithoutSun(direction);
   if (scene.IsRock(rays.object[lane])) return kRockShare * photometry.LevelGround();
-  return photometry.Ground(scene.Look(rays, lane, kConeWidth * rays.distance[lane]), -direction);
+  const float width = kConeWidth * rays.distance[lane];
+  return photometry.Ground(scene.Look(rays, lane, width, width), -direction);
 }
 
 }  // namespace

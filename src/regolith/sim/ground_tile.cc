@@ -176,9 +176,10 @@ SurfacePoint GroundTile::At(float x, float y, float width, float length,
   const float lod = std::clamp(std::log2(std::max(scale * patch, 1.0F)), 0.0F, kMips - 1.001F);
   int mip = static_cast<int>(lod);
   float coarser = lod - static_cast<float>(mip);
-  // A mip that hardly counts is not looked up.
-  if (coarser > 0.95F) ++mip;
-  if (coarser < 0.05F || coarser > 0.95F) coarser = 0.0F;
+  // Several taps blend enough, and a mip that hardly counts is not looked up.
+  const float sure = taps > 1 ? 0.5F : 0.95F;
+  if (coarser > sure) ++mip;
+  if (taps > 1 || coarser < 0.05F || coarser > sure) coarser = 0.0F;
   const float share = 1.0F / static_cast<float>(taps);
   const float step = scale * length * share;
   const float texels = 1.0F / static_cast<float>(1 << mip);

@@ -36,6 +36,11 @@ class GroundTile {
   Eigen::Vector3f Normal(int column, int row) const;
   float spacing() const { return spacing_; }
 
+  bool Covers(float x, float y) const {
+    const float size = static_cast<float>(kTileCells) * spacing_;
+    return x >= corner_.x() && y >= corner_.y() && x < corner_.x() + size && y < corner_.y() + size;
+  }
+
   /// `sunlit`: kPosts² shares of the sun's disc that are seen; the sun lies in direction `sun`.
   void SetSunlight(const std::vector<float>& sunlit, const Eigen::Vector3f& sun);
   /// `fill`: kFillPosts² values.

@@ -22,10 +22,9 @@ constexpr uint64_t kDustStream = 2;
 constexpr uint64_t kDustRangeStream = 3;
 constexpr float kMoonAlbedo = 0.12F;  // gives intensity 100 at normal incidence
 // Echoes closer together than the pulse is long (6 ns) are one.
+constexpr size_t kBeamsAtOnce = 5;  // of three rays each in a packet
 constexpr float kPulseLength = 0.9F;  // m
-constexpr float kCentreShare = 0.36F;
-constexpr float kEdgeShare = 0.16F;
-constexpr double kEdge = 0.3;        // of the divergence, from the axis
+constexpr double kEdge = 0.3;  // of the divergence, from the axis: about one sigma
 constexpr double kDustReach = 4.0;   // m, mean range of dust's returns
 constexpr float kDustIntensity = 4.0F;
 
@@ -76,72 +75,100 @@ void LidarSimulator::AimBeams() {
 
 std::vector<LidarSimulator::Return> LidarSimulator::Cast(double start) const {
   std::vector<Return> returns(directions_.size());
-  constexpr size_t kFiringsAtOnce = 50;
-  pool_->ParallelFor(static_cast<size_t>(options_.firings), kFiringsAtOnce,
+  pool_->ParallelFor(static_cast<size_t>(options_.firings), 10 * kBeamsAtOnce,
                      [&](size_t begin, size_t end, size_t) {
-                       for (size_t firing = begin; firing < end; ++firing) {
-                         CastFiring(start, static_cast<int>(firing),
-                                    &returns[firing * static_cast<size_t>(options_.rings)]);
+                       for (size_t first = begin; first < end; first += kBeamsAtOnce) {
+                         CastFirings(start, static_cast<int>(first),
+                                     static_cast<int>(std::min(first + kBeamsAtOnce, end)),
+                                     returns.data());
                        }
                      });
   return returns;
 }
 
-void LidarSimulator::CastFiring(double start, int firing, Return* returns) const {
+// The body at the start of a firing.
+struct LidarSimulator::Firing {
+  size_t first_beam;
+  Eigen::Matrix3f R_world_imu;
+  Eigen::Matrix3f R_imu_lidar;
+  Eigen::Vector3f lidar_imu;  // m
+  Eigen::Vector3f imu_world;  // m
+  Eigen::Vector3f velocity;   // m/s, world
+  Eigen::Vector3f rate;       // rad/s, body
+};
+
+// The same laser of firings side by side: their rays keep together.
+void LidarSimulator::CastFirings(double start, int begin, int end, Return* returns) const {
   const SE3 T_imu_lidar = BaseFromImu().Inverse() * BaseFromLidar(options_);
-  const MotionState motion = motion_.At(start + firing / (options_.rate * options_.firings));
-  const Eigen::Matrix3f R_world_imu = motion.T_world_imu.rotation.toRotationMatrix().cast<float>();
-  const Eigen::Matrix3f R_imu_lidar = T_imu_lidar.rotation.toRotationMatrix().cast<float>();
-  const Eigen::Vector3f lidar_imu = T_imu_lidar.translation.cast<float>();
-  const Eigen::Vector3f imu_world = motion.T_world_imu.translation.cast<float>();
-  const Eigen::Vector3f velocity = motion.v_world_imu.cast<float>();
-  const Eigen::Vector3f rate = motion.angular_velocity_imu.cast<float>();
-  const auto first = static_cast<size_t>(firing) * static_cast<size_t>(options_.rings);
-  const auto across = static_cast<float>(kEdge * options_.divergence_across);
-  const auto along = static_cast<float>(kEdge * options_.divergence_along);
-  constexpr int kBeams = kPacketSize / kBeamRays;
-  for (int laser = 0; laser < options_.rings; laser += kBeams) {
-    RayPacket rays;
-    rays.Off(kPacketSize - 1);
-    for (int lane = 0; lane < kBeams * kBeamRays; ++lane) {
-      const int beam = laser + lane / kBeamRays;
-      if (beam >= options_.rings || masked_[first + static_cast<size_t>(beam)] != 0) {
+  std::vector<Firing> firings;
+  for (int firing = begin; firing < end; ++firing) {
+    const MotionState motion = motion_.At(start + firing / (options_.rate * options_.firings));
+    firings.push_back({static_cast<size_t>(firing) * static_cast<size_t>(options_.rings),
+                       motion.T_world_imu.rotation.toRotationMatrix().cast<float>(),
+                       T_imu_lidar.rotation.toRotationMatrix().cast<float>(),
+                       T_imu_lidar.translation.cast<float>(),
+                       motion.T_world_imu.translation.cast<float>(),
+                       motion.v_world_imu.cast<float>(),
+                       motion.angular_velocity_imu.cast<float>()});
+  }
+  RayPacket rays;
+  for (int laser = 0; laser < options_.rings; ++laser) {
+    for (int lane = 0; lane < kPacketSize; ++lane) {
+      const auto firing = static_cast<size_t>(lane / kBeamRays);
+      if (firing < firings.size()) {
+        AimLaser(firings[firing], laser, lane, &rays);
+      } else {
         rays.Off(lane);
-        continue;
       }
-      const int part = lane % kBeamRays;
-      const Eigen::Vector3f& axis = directions_[first + static_cast<size_t>(beam)];
-      const Eigen::Vector3f left = Eigen::Vector3f(-axis.y(), axis.x(), 0.0F).normalized();
-      Eigen::Vector3f direction = axis;
-      if (part > 0) {
-        direction += (part % 2 == 0 ? across : -across) * left +
-                     (part > 2 ? along : -along) * axis.cross(left);
-      }
-      // The few microseconds since the firing's start: the body's motion is linear.
-      const auto delay = static_cast<float>(LaserDelay(beam));
-      const auto move = [&](const Eigen::Vector3f& v) -> Eigen::Vector3f {
-        return R_world_imu * (v + delay * rate.cross(v));
-      };
-      rays.Set(lane, imu_world + delay * velocity + move(lidar_imu),
-               move(R_imu_lidar * direction).normalized(), static_cast<float>(options_.max_range));
     }
     scene_.Intersect(&rays, false);
-    for (int beam = 0; beam < kBeams && laser + beam < options_.rings; ++beam) {
-      Echo echoes[kBeamRays];
-      int count = 0;
-      for (int part = 0; part < kBeamRays; ++part) {
-        const int lane = beam * kBeamRays + part;
-        const float range = rays.distance[lane];
-        if (!(range >= options_.min_range && range <= options_.max_range)) continue;
-        const SurfacePoint point = scene_.Look(rays, lane, across * range);
-        const float cosine = std::clamp(-point.normal.dot(rays.Direction(lane)), 0.01F, 1.0F);
-        const float share = part == 0 ? kCentreShare : kEdgeShare;
-        echoes[count++] = {range, share * cosine * point.albedo / (range * range), cosine,
-                           point.albedo};
-      }
-      returns[laser + beam] = Combine(echoes, count);
+    for (size_t i = 0; i < firings.size(); ++i) {
+      returns[firings[i].first_beam + static_cast<size_t>(laser)] =
+          Receive(rays, static_cast<int>(i) * kBeamRays);
     }
   }
+}
+
+// A beam's rays stand in a triangle about its axis.
+void LidarSimulator::AimLaser(const Firing& firing, int laser, int lane, RayPacket* rays) const {
+  const size_t beam = firing.first_beam + static_cast<size_t>(laser);
+  if (masked_[beam] != 0) {
+    rays->Off(lane);
+    return;
+  }
+  const auto across = static_cast<float>(kEdge * options_.divergence_across);
+  const auto along = static_cast<float>(kEdge * options_.divergence_along);
+  const Eigen::Vector3f& axis = directions_[beam];
+  const Eigen::Vector3f left = Eigen::Vector3f(-axis.y(), axis.x(), 0.0F).normalized();
+  const Eigen::Vector3f up = axis.cross(left);
+  const int part = lane % kBeamRays;
+  const Eigen::Vector3f direction =
+      part == 0 ? Eigen::Vector3f(axis + 1.15F * along * up)
+                : Eigen::Vector3f(axis + (part == 1 ? across : -across) * left - 0.58F * along * up);
+  // The few microseconds since the firing's start: the body's motion is linear.
+  const auto delay = static_cast<float>(LaserDelay(laser));
+  const auto move = [&](const Eigen::Vector3f& v) -> Eigen::Vector3f {
+    return firing.R_world_imu * (v + delay * firing.rate.cross(v));
+  };
+  rays->Set(lane, firing.imu_world + delay * firing.velocity + move(firing.lidar_imu),
+            move(firing.R_imu_lidar * direction).normalized(),
+            static_cast<float>(options_.max_range));
+}
+
+LidarSimulator::Return LidarSimulator::Receive(const RayPacket& rays, int first_lane) const {
+  Echo echoes[kBeamRays];
+  int count = 0;
+  for (int part = 0; part < kBeamRays; ++part) {
+    const int lane = first_lane + part;
+    const float range = rays.distance[lane];
+    if (!(range >= options_.min_range && range <= options_.max_range)) continue;
+    const auto width = static_cast<float>(kEdge * options_.divergence_across) * range;
+    const SurfacePoint point = scene_.Look(rays, lane, width, width);
+    const float cosine = std::clamp(-point.normal.dot(rays.Direction(lane)), 0.01F, 1.0F);
+    echoes[count++] = {range, cosine * point.albedo / (kBeamRays * range * range), cosine,
+                       point.albedo};
+  }
+  return Combine(echoes, count);
 }
 
 // Echoes by range; the group of close ones with the most energy is the return.

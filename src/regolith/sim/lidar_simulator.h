@@ -46,11 +46,14 @@ class LidarSimulator {
     float cosine;
     float albedo;
   };
-  static constexpr int kBeamRays = 5;
+  static constexpr int kBeamRays = 3;
 
   void AimBeams();
   std::vector<Return> Cast(double start) const;
-  void CastFiring(double start, int firing, Return* returns) const;
+  struct Firing;
+  void CastFirings(double start, int begin, int end, Return* returns) const;
+  void AimLaser(const Firing& firing, int laser, int lane, RayPacket* rays) const;
+  Return Receive(const RayPacket& rays, int first_lane) const;
   Return Combine(Echo* echoes, int count) const;
   bool Lost(const Return& echo, uint64_t scan_index, size_t beam) const;
   float DustRange(uint64_t scan_index, size_t beam) const;

@@ -12,8 +12,15 @@ namespace regolith {
 namespace {
 
 constexpr float kFarAway = 2e4F;  // m
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Farther level ground is seen so flat that a pixel's footprint is over five times as long as wide.
 constexpr float kFarGround = 6.0F;  // m
+// Two rays two pixels apart see one surface where their distances differ by less than these shares;
+// what lies behind a crest is the nearer in pixels the farther both are, so they grow by the metre.
+constexpr float kToleranceAcross = 0.012F;
+constexpr float kToleranceDown = 0.02F;
+constexpr float kToleranceByMetre = 0.012F;
+constexpr float kMostTolerance = 0.3F;
 // Neighbouring pixels of one surface differ less than this in distance.
 constexpr float kEdgeRatio = 1.12F;
 constexpr int kSubsamples = 4;
@@ -57,51 +64,172 @@ void Renderer::Render(const SE3& T_world_camera, const Surroundings& surrounding
   view->radiance.resize(bearings_.size());
   view->distance.resize(bearings_.size());
   std::vector<uint32_t> objects(bearings_.size());
-  constexpr size_t kRowsAtOnce = 8;
+  // An even number, so that the lines that are cast are the same for all.
+  constexpr size_t kRowsAtOnce = 16;
   const auto rows = static_cast<size_t>(height_);
   pool_->ParallelFor(rows, kRowsAtOnce, [&](size_t begin, size_t end, size_t) {
-    for (size_t row = begin; row < end; ++row) {
-      RenderRow(pose, surroundings, static_cast<int>(row), view, &objects);
-    }
+    RenderRows(pose, surroundings, static_cast<int>(begin), static_cast<int>(end), view, &objects);
   });
   pool_->ParallelFor(rows, kRowsAtOnce, [&](size_t begin, size_t end, size_t) {
-    for (size_t row = begin; row < end; ++row) {
-      RefineRow(pose, surroundings, static_cast<int>(row), objects, view->distance, view);
-    }
+    RefineRows(pose, surroundings, static_cast<int>(begin), static_cast<int>(end), objects, view);
   });
 }
 
-void Renderer::RenderRow(const Pose& pose, const Surroundings& surroundings, int row,
-                         RenderedView* view, std::vector<uint32_t>* objects) const {
+Renderer::Line Renderer::Aim(const Pose& pose, int row, float down) const {
+  Line line;
+  const auto width = static_cast<size_t>(width_);
+  line.directions.reserve(width);
+  for (int column = 0; column < width_; ++column) {
+    line.directions.push_back(pose.R_world_camera * (down == 0.0F ? bearing(column, row)
+                                                                  : Between(column, row, 0, down)));
+  }
+  line.distances.assign(width, kInfinity);
+  line.objects.assign(width, kNothing);
+  line.triangles.resize(width);
+  line.u.resize(width);
+  line.v.resize(width);
+  return line;
+}
+
+void Renderer::CastColumns(const Pose& pose, Span<const int> columns, Line* line) const {
   RayPacket rays;
-  for (int first = 0; first < width_; first += kPacketSize) {
-    const int count = std::min(kPacketSize, width_ - first);
-    for (int lane = 0; lane < kPacketSize; ++lane) {
-      if (lane < count) {
-        rays.Set(lane, pose.origin, pose.R_world_camera * bearing(first + lane, row), kFarAway);
-      } else {
-        rays.Off(lane);
-      }
+  for (size_t first = 0; first < columns.size(); first += kPacketSize) {
+    const size_t count = std::min(columns.size() - first, static_cast<size_t>(kPacketSize));
+    for (size_t lane = 0; lane < kPacketSize; ++lane) {
+      const auto column = static_cast<size_t>(columns[first + std::min(lane, count - 1)]);
+      rays.Set(static_cast<int>(lane), pose.origin, line->directions[column],
+               lane < count ? kFarAway : -1.0F);
     }
     scene_.Intersect(&rays, true);
-    const auto pixel = static_cast<size_t>(row * width_ + first);
-    Shade(rays, count, pixel_, surroundings, &view->radiance[pixel]);
-    for (int lane = 0; lane < count; ++lane) {
-      view->distance[pixel + static_cast<size_t>(lane)] = rays.distance[lane];
-      (*objects)[pixel + static_cast<size_t>(lane)] = Class(scene_, rays.object[lane]);
+    for (size_t lane = 0; lane < count; ++lane) {
+      const auto column = static_cast<size_t>(columns[first + lane]);
+      line->distances[column] = rays.distance[lane];
+      line->objects[column] = rays.object[lane];
+      line->triangles[column] = rays.triangle[lane];
+      line->u[column] = rays.u[lane];
+      line->v[column] = rays.v[lane];
     }
   }
 }
 
-bool Renderer::NeedsMore(const std::vector<uint32_t>& objects, const std::vector<float>& distances,
-                         int column, int row) const {
+// The ray half-way between two that see the sky, or nearly the same place of the ground.
+bool Renderer::Interpolate(const Pose& pose, const Line& first, int first_column,
+                           const Line& second, int second_column, float tolerance, Line* line,
+                           int column) const {
+  const auto one = static_cast<size_t>(first_column);
+  const auto other = static_cast<size_t>(second_column);
+  const auto here = static_cast<size_t>(column);
+  const uint32_t object = first.objects[one];
+  if (object == kNothing || second.objects[other] == kNothing) {
+    return object == second.objects[other];
+  }
+  if (scene_.IsRock(object) || scene_.IsRock(second.objects[other])) return false;
+  const float nearer = std::min(first.distances[one], second.distances[other]);
+  const float farther = std::max(first.distances[one], second.distances[other]);
+  if (farther - nearer > std::min(tolerance + kToleranceByMetre * nearer, kMostTolerance) * nearer) {
+    return false;
+  }
+  const float distance = 2.0F * nearer * farther / (nearer + farther);
+  const Eigen::Vector3f place = pose.origin + distance * line->directions[here];
+  const bool on_first = scene_.Covers(object, place.x(), place.y());
+  if (!on_first && !scene_.Covers(second.objects[other], place.x(), place.y())) return false;
+  line->distances[here] = distance;
+  line->objects[here] = on_first ? object : second.objects[other];
+  return true;
+}
+
+// Casts every second of the wanted columns, and those that cannot be interpolated between them.
+void Renderer::CastSparse(const Pose& pose, int parity, Span<const char> wanted,
+                          Line* line) const {
+  const auto is_wanted = [&](int column) {
+    return column >= 0 && column < width_ && (wanted.empty() || wanted[static_cast<size_t>(column)]);
+  };
+  std::vector<int> columns;
+  for (int column = parity; column < width_; column += 2) {
+    if (is_wanted(column)) columns.push_back(column);
+  }
+  CastColumns(pose, columns, line);
+  columns.clear();
+  for (int column = 1 - parity; column < width_; column += 2) {
+    if (!is_wanted(column)) continue;
+    if (!is_wanted(column - 1) || !is_wanted(column + 1) ||
+        !Interpolate(pose, *line, column - 1, *line, column + 1, kToleranceAcross, line, column)) {
+      columns.push_back(column);
+    }
+  }
+  CastColumns(pose, columns, line);
+}
+
+void Renderer::CastBetween(const Pose& pose, const Line& above, const Line& below,
+                           Line* line) const {
+  std::vector<int> columns;
+  for (int column = 0; column < width_; ++column) {
+    if (!Interpolate(pose, above, column, below, column, kToleranceDown, line, column)) {
+      columns.push_back(column);
+    }
+  }
+  CastColumns(pose, columns, line);
+}
+
+void Renderer::RenderRows(const Pose& pose, const Surroundings& surroundings, int begin, int end,
+                          RenderedView* view, std::vector<uint32_t>* objects) const {
+  const auto keep = [&](int row, const Line& line) {
+    const auto start = static_cast<size_t>(row * width_);
+    ShadeLine(pose, surroundings, line, {}, &view->radiance[start]);
+    for (size_t i = 0; i < line.objects.size(); ++i) {
+      view->distance[start + i] = line.distances[i];
+      (*objects)[start + i] = Class(scene_, line.objects[i]);
+    }
+  };
+  Line above = Aim(pose, begin, 0.0F);
+  CastSparse(pose, 0, {}, &above);
+  for (int row = begin; row < end; row += 2) {
+    keep(row, above);
+    if (row + 1 >= end) break;
+    Line below = Aim(pose, std::min(row + 2, height_ - 1), 0.0F);
+    CastSparse(pose, 0, {}, &below);
+    Line between = Aim(pose, row + 1, 0.0F);
+    CastBetween(pose, above, below, &between);
+    keep(row + 1, between);
+    above = std::move(below);
+  }
+}
+
+void Renderer::ShadeLine(const Pose& pose, const Surroundings& surroundings, const Line& line,
+                         Span<const char> wanted, float* radiance) const {
+  RayPacket rays;
+  int columns[kPacketSize];
+  float shades[kPacketSize];
+  int count = 0;
+  const auto flush = [&] {
+    Shade(rays, count, pixel_, 0.5F * pixel_, surroundings, shades);
+    for (int lane = 0; lane < count; ++lane) radiance[columns[lane]] = shades[lane];
+    count = 0;
+  };
+  for (int column = 0; column < width_; ++column) {
+    const auto i = static_cast<size_t>(column);
+    if (!wanted.empty() && !wanted[i]) continue;
+    rays.Set(count, pose.origin, line.directions[i], kFarAway);
+    rays.distance[count] = line.distances[i];
+    rays.object[count] = line.objects[i];
+    rays.triangle[count] = line.triangles[i];
+    rays.u[count] = line.u[i];
+    rays.v[count] = line.v[i];
+    columns[count++] = column;
+    if (count == kPacketSize) flush();
+  }
+  if (count > 0) flush();
+}
+
+bool Renderer::OnEdge(const std::vector<uint32_t>& objects, const std::vector<float>& distances,
+                      int column, int row) const {
   const auto pixel = static_cast<size_t>(row * width_ + column);
   const float distance = distances[pixel];
-  if (distance > kFarGround && std::isfinite(distance)) return true;
   const auto differs = [&](size_t other) {
     if (objects[pixel] != objects[other]) return true;
     const float ratio = distance / distances[other];
-    return ratio > kEdgeRatio || ratio < 1.0F / kEdgeRatio;
+    return ratio > kEdgeRatio + kToleranceByMetre * distances[other] ||
+           ratio * (kEdgeRatio + kToleranceByMetre * distance) < 1.0F;
   };
   const auto width = static_cast<size_t>(width_);
   return (column > 0 && differs(pixel - 1)) || (column + 1 < width_ && differs(pixel + 1)) ||
@@ -122,46 +250,100 @@ Eigen::Vector3f Renderer::Between(int column, int row, float right, float down) 
       .normalized();
 }
 
-void Renderer::RefineRow(const Pose& pose, const Surroundings& surroundings, int row,
-                         const std::vector<uint32_t>& objects, const std::vector<float>& distances,
-                         RenderedView* view) const {
-  std::vector<Sample> samples;
-  for (int column = 0; column < width_; ++column) {
-    if (!NeedsMore(objects, distances, column, row)) continue;
-    for (int i = 0; i < kSubsamples; ++i) {
-      const float right = i % 2 == 0 ? -kSubsampleShift : kSubsampleShift;
-      const float down = i / 2 == 0 ? -kSubsampleShift : kSubsampleShift;
-      samples.push_back({pose.R_world_camera * Between(column, row, right, down), column});
-    }
-    view->radiance[static_cast<size_t>(row * width_ + column)] = 0.0F;
-  }
-  RayPacket rays;
-  float radiance[kPacketSize];
-  for (size_t first = 0; first < samples.size(); first += kPacketSize) {
-    const auto count = static_cast<int>(std::min<size_t>(kPacketSize, samples.size() - first));
-    for (int lane = 0; lane < kPacketSize; ++lane) {
-      if (lane < count) {
-        rays.Set(lane, pose.origin, samples[first + static_cast<size_t>(lane)].direction, kFarAway);
-      } else {
-        rays.Off(lane);
+void Renderer::RefineRows(const Pose& pose, const Surroundings& surroundings, int begin, int end,
+                          const std::vector<uint32_t>& objects, RenderedView* view) const {
+  std::vector<std::vector<char>> far;
+  std::vector<int> edges;
+  for (int row = begin; row < end; ++row) {
+    std::vector<char>& far_here = far.emplace_back(static_cast<size_t>(width_), 0);
+    edges.clear();
+    for (int column = 0; column < width_; ++column) {
+      const float distance = view->distance[static_cast<size_t>(row * width_ + column)];
+      if (OnEdge(objects, view->distance, column, row)) {
+        edges.push_back(column);
+      } else if (distance > kFarGround && std::isfinite(distance) && row > 0 && row + 1 < height_) {
+        far_here[static_cast<size_t>(column)] = 1;
       }
     }
-    scene_.Intersect(&rays, true);
-    Shade(rays, count, 0.5F * pixel_, surroundings, radiance);
-    for (int lane = 0; lane < count; ++lane) {
-      const int column = samples[first + static_cast<size_t>(lane)].column;
-      view->radiance[static_cast<size_t>(row * width_ + column)] += radiance[lane] / kSubsamples;
+    if (!edges.empty()) RefineEdges(pose, surroundings, row, edges, view);
+  }
+  RefineFar(pose, surroundings, begin, far, view);
+}
+
+// Far pixels get half of their light from their own line and a quarter each from the lines between
+// them and their neighbours: a tent over two pixels' height.
+void Renderer::RefineFar(const Pose& pose, const Surroundings& surroundings, int begin,
+                         const std::vector<std::vector<char>>& far, RenderedView* view) const {
+  const auto rows = static_cast<int>(far.size());
+  const auto width = static_cast<size_t>(width_);
+  const auto is_far = [&](int row, size_t column) {
+    return row >= 0 && row < rows && far[static_cast<size_t>(row)][column] != 0;
+  };
+  for (int row = 0; row < rows; ++row) {
+    float* radiance = &view->radiance[static_cast<size_t>(begin + row) * width];
+    for (size_t i = 0; i < width; ++i) radiance[i] *= is_far(row, i) ? 0.5F : 1.0F;
+  }
+  std::vector<char> wanted(width);
+  std::vector<float> between(width);
+  for (int upper = -1; upper < rows; ++upper) {
+    for (size_t i = 0; i < width; ++i) {
+      wanted[i] = is_far(upper, i) || is_far(upper + 1, i) ? 1 : 0;
+      between[i] = 0.0F;
+    }
+    if (std::find(wanted.begin(), wanted.end(), 1) == wanted.end()) continue;
+    Line line = Aim(pose, begin + upper, 0.5F);
+    CastSparse(pose, 1, wanted, &line);
+    ShadeLine(pose, surroundings, line, wanted, between.data());
+    for (const int row : {upper, upper + 1}) {
+      for (size_t i = 0; i < width; ++i) {
+        if (is_far(row, i)) {
+          view->radiance[static_cast<size_t>(begin + row) * width + i] += 0.25F * between[i];
+        }
+      }
     }
   }
 }
 
-void Renderer::Shade(const RayPacket& rays, int count, float pixel,
+void Renderer::RefineEdges(const Pose& pose, const Surroundings& surroundings, int row,
+                           Span<const int> columns, RenderedView* view) const {
+  float* radiance = &view->radiance[static_cast<size_t>(row * width_)];
+  RayPacket rays;
+  float shades[kPacketSize];
+  constexpr size_t kPixelsAtOnce = kPacketSize / kSubsamples;
+  for (size_t first = 0; first < columns.size(); first += kPixelsAtOnce) {
+    const size_t pixels = std::min(kPixelsAtOnce, columns.size() - first);
+    const auto count = static_cast<int>(pixels) * kSubsamples;
+    for (int lane = 0; lane < kPacketSize; ++lane) {
+      if (lane >= count) {
+        rays.Off(lane);
+        continue;
+      }
+      const int i = lane % kSubsamples;
+      const float right = i % 2 == 0 ? -kSubsampleShift : kSubsampleShift;
+      const float down = i / 2 == 0 ? -kSubsampleShift : kSubsampleShift;
+      const int column = columns[first + static_cast<size_t>(lane / kSubsamples)];
+      rays.Set(lane, pose.origin, pose.R_world_camera * Between(column, row, right, down),
+               kFarAway);
+    }
+    scene_.Intersect(&rays, true);
+    Shade(rays, count, 0.5F * pixel_, 0.5F * pixel_, surroundings, shades);
+    for (size_t pixel = 0; pixel < pixels; ++pixel) {
+      const float* parts = shades + pixel * kSubsamples;
+      radiance[columns[first + pixel]] = 0.25F * (parts[0] + parts[1] + parts[2] + parts[3]);
+    }
+  }
+}
+
+// A footprint is `width` rad wide and as high, or `far_height` rad where the ground is far.
+void Renderer::Shade(const RayPacket& rays, int count, float width, float far_height,
                      const Surroundings& surroundings, float* radiance) const {
   SurfacePoint points[kPacketSize];
   bool rocks = false;
   for (int lane = 0; lane < count; ++lane) {
     if (rays.object[lane] == kNothing) continue;
-    points[lane] = scene_.Look(rays, lane, pixel * rays.distance[lane]);
+    const float distance = rays.distance[lane];
+    const float height = distance > kFarGround ? far_height : width;
+    points[lane] = scene_.Look(rays, lane, width * distance, height * distance);
     rocks = rocks || scene_.IsRock(rays.object[lane]);
   }
   if (rocks) LightRocks(rays, count, points);
@@ -189,20 +371,21 @@ void Renderer::Shade(const RayPacket& rays, int count, float pixel,
 // Rocks are few: their light is cast when they are seen.
 void Renderer::LightRocks(const RayPacket& rays, int count, SurfacePoint* points) const {
   std::vector<Eigen::Vector3f> places;
+  int lanes[kPacketSize];
   for (int lane = 0; lane < count; ++lane) {
-    if (scene_.IsRock(rays.object[lane])) {
-      places.push_back(rays.Point(lane) + kLift * points[lane].normal);
+    if (!scene_.IsRock(rays.object[lane])) continue;
+    points[lane].fill = photometry_.FillOutside(points[lane].normal);
+    points[lane].light = points[lane].normal.dot(photometry_.sun().direction);
+    if (points[lane].light <= 0.0F) {
+      points[lane].light = 0.0F;
+      continue;
     }
+    lanes[places.size()] = lane;
+    places.push_back(rays.Point(lane) + kLift * points[lane].normal);
   }
   float sunlit[kPacketSize];
   CastSunlight(scene_, photometry_.sun(), places, sunlit);
-  size_t next = 0;
-  for (int lane = 0; lane < count; ++lane) {
-    if (!scene_.IsRock(rays.object[lane])) continue;
-    const float incidence = points[lane].normal.dot(photometry_.sun().direction);
-    points[lane].light = sunlit[next++] * std::max(incidence, 0.0F);
-    points[lane].fill = photometry_.FillOutside(points[lane].normal);
-  }
+  for (size_t i = 0; i < places.size(); ++i) points[lanes[i]].light *= sunlit[i];
 }
 
 void Renderer::AddLamp(const RayPacket& rays, int count, const Lamp& lamp,

@@ -32,8 +32,10 @@ struct Surroundings {
   Lamp lamp;
 };
 
-/// Casts the rays of a camera: one a pixel, and four where the pixel's footprint is much finer than
-/// what it sees or where an edge crosses it.
+/// Casts the rays of a camera. Ground without a crest between two rays has an inverse distance that
+/// is linear in the image (exactly so for a plane), so a ray between two that nearly agree is
+/// interpolated: a third of the rays give the same picture. Far ground, whose pixels are much longer
+/// than wide, is looked at between the lines too; pixels with an edge in four places.
 class Renderer {
  public:
   Renderer(const CameraIntrinsics& intrinsics, const Scene& scene, const Photometry& photometry,
@@ -52,22 +54,37 @@ class Renderer {
     Eigen::Matrix3f R_world_camera;
     Eigen::Vector3f origin;  // m, world
   };
-  // A ray on its way to a pixel.
-  struct Sample {
-    Eigen::Vector3f direction;  // world
-    int column;
+  // The rays of an image line and what they meet.
+  struct Line {
+    std::vector<Eigen::Vector3f> directions;  // unit vectors, world
+    std::vector<float> distances;             // m; infinite where nothing is met
+    std::vector<uint32_t> objects;
+    std::vector<uint32_t> triangles;
+    std::vector<float> u;
+    std::vector<float> v;
   };
 
-  void RenderRow(const Pose& pose, const Surroundings& surroundings, int row, RenderedView* view,
-                 std::vector<uint32_t>* objects) const;
-  void RefineRow(const Pose& pose, const Surroundings& surroundings, int row,
-                 const std::vector<uint32_t>& objects, const std::vector<float>& distances,
-                 RenderedView* view) const;
-  bool NeedsMore(const std::vector<uint32_t>& objects, const std::vector<float>& distances,
-                 int column, int row) const;
+  Line Aim(const Pose& pose, int row, float down) const;
+  void CastColumns(const Pose& pose, Span<const int> columns, Line* line) const;
+  void CastSparse(const Pose& pose, int parity, Span<const char> wanted, Line* line) const;
+  void CastBetween(const Pose& pose, const Line& above, const Line& below, Line* line) const;
+  bool Interpolate(const Pose& pose, const Line& first, int first_column, const Line& second,
+                   int second_column, float tolerance, Line* line, int column) const;
+  void RenderRows(const Pose& pose, const Surroundings& surroundings, int begin, int end,
+                  RenderedView* view, std::vector<uint32_t>* objects) const;
+  void ShadeLine(const Pose& pose, const Surroundings& surroundings, const Line& line,
+                 Span<const char> wanted, float* radiance) const;
+  void RefineRows(const Pose& pose, const Surroundings& surroundings, int begin, int end,
+                  const std::vector<uint32_t>& objects, RenderedView* view) const;
+  void RefineFar(const Pose& pose, const Surroundings& surroundings, int begin,
+                 const std::vector<std::vector<char>>& far, RenderedView* view) const;
+  void RefineEdges(const Pose& pose, const Surroundings& surroundings, int row,
+                   Span<const int> columns, RenderedView* view) const;
+  bool OnEdge(const std::vector<uint32_t>& objects, const std::vector<float>& distances, int column,
+              int row) const;
   Eigen::Vector3f Between(int column, int row, float right, float down) const;
-  void Shade(const RayPacket& rays, int count, float pixel, const Surroundings& surroundings,
-             float* radiance) const;
+  void Shade(const RayPacket& rays, int count, float width, float far_height,
+             const Surroundings& surroundings, float* radiance) const;
   void LightRocks(const RayPacket& rays, int count, SurfacePoint* points) const;
   void AddLamp(const RayPacket& rays, int count, const Lamp& lamp, const SurfacePoint* points,
                float* radiance) const;

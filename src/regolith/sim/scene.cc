@@ -168,9 +168,13 @@ class EmbreeScene : public Scene {
     }
   }
 
-  SurfacePoint Look(const RayPacket& rays, int lane, float width) const override;
+  SurfacePoint Look(const RayPacket& rays, int lane, float width, float height) const override;
 
   bool IsRock(uint32_t object) const override { return object < rocks_.size(); }
+
+  bool Covers(uint32_t object, float x, float y) const override {
+    return by_id_[object - rocks_.size()]->Covers(x, y);
+  }
 
   size_t tile_count() const override { return tiles_.size(); }
   size_t rock_count() const override { return rocks_.size(); }
@@ -323,7 +327,8 @@ void EmbreeScene::CastLight(const std::vector<Tile*>& tiles) {
   });
 }
 
-SurfacePoint EmbreeScene::Look(const RayPacket& rays, int lane, float width) const {
+SurfacePoint EmbreeScene::Look(const RayPacket& rays, int lane, float width,
+                               float height) const {
   const uint32_t object = rays.object[lane];
   if (IsRock(object)) return LookAtRock(rays, lane);
   const GroundTile& tile = *by_id_[object - rocks_.size()];
@@ -333,7 +338,7 @@ SurfacePoint EmbreeScene::Look(const RayPacket& rays, int lane, float width) con
   const Eigen::Vector2f plan(rays.direction_x[lane], rays.direction_y[lane]);
   const float norm = plan.norm();
   const Eigen::Vector2f along = norm > 1e-4F ? Eigen::Vector2f(plan / norm) : plan;
-  return tile.At(place.x(), place.y(), width, width / down, along);
+  return tile.At(place.x(), place.y(), width, height / down, along);
 }
 
 SurfacePoint EmbreeScene::LookAtRock(const RayPacket& rays, int lane) const {

@@ -39,10 +39,12 @@ class Scene {
   virtual void Occluded(RayPacket* rays) const = 0;
 
   /// The surface where a ray that Intersect filled meets it, averaged over the footprint of a ray
-  /// that is `width` m wide there. A rock's light and fill are zero: they are not cast beforehand.
-  virtual SurfacePoint Look(const RayPacket& rays, int lane, float width) const = 0;
+  /// that is `width` m wide and `height` m high there. A rock's light and fill are zero: they are not cast beforehand.
+  virtual SurfacePoint Look(const RayPacket& rays, int lane, float width, float height) const = 0;
 
   virtual bool IsRock(uint32_t object) const = 0;
+  /// Whether (x, y), m, world, lies on this tile of ground.
+  virtual bool Covers(uint32_t object, float x, float y) const = 0;
 
   virtual size_t tile_count() const = 0;
   virtual size_t rock_count() const = 0;

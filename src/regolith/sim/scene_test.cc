@@ -85,13 +85,13 @@ TEST(TileTree, CoversTheGroundOnceAndFinelyAlongThePath) {
     double distance = 1e9;
     for (const Eigen::Vector2d& point : path) distance = std::min(distance, (place - point).norm());
     const double from_rover = (place - Eigen::Vector2d(20.0, 0.0)).norm();
-    if (distance < 5.0 && from_rover < 7.0) {
+    if (distance < 5.0 && from_rover < 3.5) {
       EXPECT_LE(spacing, 0.005);
     }
-    if (distance < 5.0 && from_rover < 14.0) {
+    if (distance < 5.0 && from_rover < 7.5) {
       EXPECT_LE(spacing, 0.01);
     }
-    if (distance < 20.0 && from_rover < 50.0) {
+    if (distance < 20.0 && from_rover < 31.0) {
       EXPECT_LE(spacing, 0.04);
     }
   }
@@ -112,7 +112,7 @@ TEST_F(SceneTest, RaysMeetTheGroundWhereItIs) {
 TEST_F(SceneTest, TheSurfaceHasItsSlopeAlbedoAndLight) {
   Make();
   const RayPacket ray = Down(1.0F, 0.5F);
-  const SurfacePoint point = scene_->Look(ray, 0, 0.01F);
+  const SurfacePoint point = scene_->Look(ray, 0, 0.01F, 0.01F);
   const Eigen::Vector3d normal(-0.04 * std::cos(0.4), 0.035 * std::sin(0.35), 1.0);
   EXPECT_LT((point.normal.cast<double>() - normal.normalized()).norm(), 2e-3);
   EXPECT_NEAR(point.albedo, 0.15, 1e-3);
@@ -130,7 +130,7 @@ TEST_F(SceneTest, ShadowsEndWhereTheSunSays) {
   Make();
   const double edge = 2.0 - 1.0 / std::tan(30.0 * M_PI / 180.0);
   const auto light = [&](double x) {
-    return scene_->Look(Down(static_cast<float>(x), 0.0F), 0, 0.01F).light;
+    return scene_->Look(Down(static_cast<float>(x), 0.0F), 0, 0.01F, 0.01F).light;
   };
   EXPECT_EQ(light(edge + 0.3), 0.0F);
   EXPECT_GT(light(edge - 0.3), 0.4F);
@@ -144,8 +144,8 @@ TEST_F(SceneTest, ShadowsAreFilledByLitGroundAround) {
   sun.elevation_deg = 30.0;
   photometry_ = Photometry("moon", sun, 0.12);
   Make();
-  const float near_wall = scene_->Look(Down(1.8F, 0.0F), 0, 0.01F).fill;
-  const float open = scene_->Look(Down(-8.0F, 0.0F), 0, 0.01F).fill;
+  const float near_wall = scene_->Look(Down(1.8F, 0.0F), 0, 0.01F, 0.01F).fill;
+  const float open = scene_->Look(Down(-8.0F, 0.0F), 0, 0.01F, 0.01F).fill;
   EXPECT_GT(near_wall, 3.0F * open);
   EXPECT_LT(near_wall, 0.12F);
 }
@@ -162,7 +162,7 @@ TEST_F(SceneTest, RocksStandOnTheGroundAndCastShadows) {
   EXPECT_NEAR(20.0 - top.distance[0], rock.ground + 0.4, 1e-3);
   const Eigen::Vector3f sun = photometry_.sun().direction;
   const Eigen::Vector2f away = -0.5F * sun.head<2>().normalized();
-  EXPECT_EQ(scene_->Look(Down(3.0F + away.x(), 1.0F + away.y()), 0, 0.01F).light, 0.0F);
+  EXPECT_EQ(scene_->Look(Down(3.0F + away.x(), 1.0F + away.y()), 0, 0.01F, 0.01F).light, 0.0F);
 }
 
 // Tiles of different spacing leave no gap: no ray passes between them.

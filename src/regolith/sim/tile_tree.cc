@@ -17,7 +17,7 @@ struct Ring {
 constexpr Ring kRings[] = {{0.005, 5.0}, {0.01, 8.0}, {0.02, 12.0}, {0.04, 24.0}};
 // A pixel of the cameras is 1 / 380 of its distance wide.
 constexpr double kReachBySpacing = 500.0;
-constexpr double kRoverReachBySpacing = 1400.0;
+constexpr double kRoverReachBySpacing = 800.0;
 
 // Path points that can decide about a square: those within the coarsest reach of its border.
 std::vector<Eigen::Vector2d> Near(const Eigen::AlignedBox2d& box, double reach,
