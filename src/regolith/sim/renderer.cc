@@ -14,17 +14,17 @@ namespace {
 constexpr float kFarAway = 2e4F;  // m
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Farther level ground is seen so flat that a pixel's footprint is over five times as long as wide.
-constexpr float kFarGround = 6.0F;  // m
+constexpr float kFarGround = 7.0F;  // m
 // Two rays two pixels apart see one surface where their distances differ by less than these shares;
 // what lies behind a crest is the nearer in pixels the farther both are, so they grow by the metre.
-constexpr float kToleranceAcross = 0.012F;
-constexpr float kToleranceDown = 0.02F;
+constexpr float kToleranceAcross = 0.02F;
+constexpr float kToleranceDown = 0.03F;
 constexpr float kToleranceByMetre = 0.012F;
 constexpr float kMostTolerance = 0.3F;
 // Neighbouring pixels of one surface differ less than this in distance.
 constexpr float kEdgeRatio = 1.12F;
-constexpr int kSubsamples = 4;
-constexpr float kSubsampleShift = 0.25F;  // pixels
+constexpr int kSubsamples = 2;  // beside the one in the middle
+constexpr float kSubsampleShift = 0.3F;  // pixels
 constexpr float kLift = 1e-3F;            // m, of rays that start on a surface
 
 // The same class of objects: all ground is one.
@@ -318,18 +318,17 @@ void Renderer::RefineEdges(const Pose& pose, const Surroundings& surroundings, i
         rays.Off(lane);
         continue;
       }
-      const int i = lane % kSubsamples;
-      const float right = i % 2 == 0 ? -kSubsampleShift : kSubsampleShift;
-      const float down = i / 2 == 0 ? -kSubsampleShift : kSubsampleShift;
+      const float shift = lane % kSubsamples == 0 ? -kSubsampleShift : kSubsampleShift;
       const int column = columns[first + static_cast<size_t>(lane / kSubsamples)];
-      rays.Set(lane, pose.origin, pose.R_world_camera * Between(column, row, right, down),
+      rays.Set(lane, pose.origin, pose.R_world_camera * Between(column, row, shift, -shift),
                kFarAway);
     }
     scene_.Intersect(&rays, true);
     Shade(rays, count, 0.5F * pixel_, 0.5F * pixel_, surroundings, shades);
     for (size_t pixel = 0; pixel < pixels; ++pixel) {
       const float* parts = shades + pixel * kSubsamples;
-      radiance[columns[first + pixel]] = 0.25F * (parts[0] + parts[1] + parts[2] + parts[3]);
+      float& sum = radiance[columns[first + pixel]];
+      sum = (sum + parts[0] + parts[1]) / (kSubsamples + 1);
     }
   }
 }

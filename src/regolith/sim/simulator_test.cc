@@ -193,7 +193,8 @@ TEST_F(LidarTest, PointsLieOnTheGroundAtTheirOwnTimes) {
     EXPECT_NEAR(elevation, -15.0 + 2.0 * point.ring, 1e-3);
     if (point.position.norm() > 6.0F) continue;
     ++near;
-    EXPECT_NEAR(place.z(), ground_.Height(place.x(), place.y(), 0.04), 0.02);
+    // Beams have a footprint.
+    EXPECT_NEAR(place.z(), ground_.Height(place.x(), place.y(), 0.04), 0.03);
   }
   EXPECT_GT(near, 2000);
 }
