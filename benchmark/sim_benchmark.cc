@@ -8,9 +8,9 @@
 
 #include "regolith/core/thread_pool.h"
 #include "regolith/sim/camera_simulator.h"
+#include "regolith/sim/drive.h"
 #include "regolith/sim/fill_light.h"
 #include "regolith/sim/lidar_simulator.h"
-#include "regolith/sim/drive.h"
 #include "regolith/sim/rover_geometry.h"
 #include "regolith/sim/scene.h"
 
@@ -21,18 +21,20 @@ namespace {
 struct World {
   World()
       : pool(1),
-        surface(CreateGeneratedSurface(options.terrain, 1,
-                                       {Eigen::Vector2d(-60.0, -60.0), Eigen::Vector2d(60.0, 60.0)})),
+        surface(CreateGeneratedSurface(
+            options.terrain, 1, {Eigen::Vector2d(-60.0, -60.0), Eigen::Vector2d(60.0, 60.0)})),
         motion(*surface, StraightPath(), options.rover, options.vibration, 1),
         ground(*surface, motion.origin()),
         photometry(options.planet, options.sun, options.terrain.albedo.mean) {
     for (double x = 0.0; x <= 10.0; x += 0.25) places.emplace_back(x, 0.0);
     scene = Scene::Create(ground, places, RocksAroundPath(*surface, places), photometry,
                           options.mesh, &pool);
-    renderer = std::make_unique<Renderer>(MakeIntrinsics(options.camera), *scene, photometry, &pool);
-    T_world_camera = motion.PoseAt(1.0) * BaseFromImu().Inverse() *
-                     BaseFromCamera(options.camera, "mono");
-    rover = std::make_unique<RoverShadow>(RoverBody(), motion.PoseAt(1.0) * BaseFromImu().Inverse());
+    renderer =
+        std::make_unique<Renderer>(MakeIntrinsics(options.camera), *scene, photometry, &pool);
+    T_world_camera =
+        motion.PoseAt(1.0) * BaseFromImu().Inverse() * BaseFromCamera(options.camera, "mono");
+    rover =
+        std::make_unique<RoverShadow>(RoverBody(), motion.PoseAt(1.0) * BaseFromImu().Inverse());
   }
 
   static std::vector<PlanarPose> StraightPath() {
@@ -85,7 +87,8 @@ BENCHMARK(SunlightOnTile)->Unit(benchmark::kMillisecond);
 void FillLightOnTile(benchmark::State& state) {
   World& world = TheWorld();
   const GroundTile tile(world.ground, {0.64, 0.0}, 0.005);
-  for (auto _ : state) benchmark::DoNotOptimize(CastFillLight(*world.scene, world.photometry, tile));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(CastFillLight(*world.scene, world.photometry, tile));
 }
 BENCHMARK(FillLightOnTile)->Unit(benchmark::kMillisecond);
 

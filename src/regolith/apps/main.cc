@@ -96,6 +96,11 @@ void AddSimulate(CLI::App& program, std::map<CLI::App*, Command>& commands) {
   app->add_option("--duration", arguments->duration, "Seconds; the scenario's own where absent")
       ->type_name("S");
   app->add_option("--seed", arguments->seed, "Another seed is another world")->type_name("N");
+  app->add_option("--pairs", arguments->pairs,
+                  "Image pairs with true correspondence to write into pairs/")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("N");
+  app->add_flag("--pairs-only", arguments->pairs_only, "Pairs alone, without a recording");
   app->add_option("--quality", arguments->quality, "full or draft")
       ->type_name("Q")
       ->capture_default_str();

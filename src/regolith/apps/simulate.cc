@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "regolith/apps/background_writer.h"
+#include "regolith/apps/image_pairs.h"
 #include "regolith/apps/install_paths.h"
 #include "regolith/apps/output_folder.h"
 #include "regolith/apps/progress.h"
@@ -105,35 +106,51 @@ void WriteSurroundings(const std::string& out, Simulator& simulator,
   WritePng(out + "/preview.png", simulator.Preview());
 }
 
+// False where it was interrupted.
+bool WriteRecording(const SimulateArguments& arguments, Simulator& simulator) {
+  const auto start = Clock::now();
+  const Trajectory truth = simulator.Truth();
+  const auto bag = BagWriter::Create(arguments.out + "/recording.bag", simulator.rig());
+  const Recorded recorded = Record(simulator, truth.poses(), bag.get(), arguments.quiet);
+  bag->Close(!recorded.complete);
+  const auto poses = truth.poses().Subspan(0, TruthCount(truth.poses(), recorded.last));
+  WriteTum(arguments.out + "/ground_truth.tum", poses, !recorded.complete);
+
+  const double wall = std::chrono::duration<double>(Clock::now() - start).count();
+  const double seconds = SecondsBetween(simulator.start_time(), recorded.last);
+  const Trajectory driven(std::vector<StampedPose>(poses.begin(), poses.end()));
+  std::printf(
+      "simulated %.1f s, %.2f m, slopes up to %.1f degrees, real-time factor %.2f: "
+      "%s/recording%s.bag\n",
+      seconds, driven.Length(), simulator.steepest_slope() * kDegreesPerRadian, seconds / wall,
+      arguments.out.c_str(), recorded.complete ? "" : ".partial");
+  if (!recorded.complete) {
+    LogWarning("interrupted: the recording so far is in files named *.partial.*");
+  }
+  return recorded.complete;
+}
+
 }  // namespace
 
 int Simulate(const SimulateArguments& arguments) {
+  if (arguments.pairs_only && arguments.pairs == 0) {
+    throw InputError("--pairs-only", "writes nothing without --pairs N");
+  }
   const ScenarioOptions options = ResolveScenario(arguments);
   ThreadPool threads(arguments.threads);
   const auto simulator = MakeSimulator(arguments, options, &threads);
   PrepareOutputFolder(arguments.out, arguments.overwrite);
   WriteSurroundings(arguments.out, *simulator, options);
 
-  const auto start = Clock::now();
-  const Trajectory truth = simulator->Truth();
-  const auto bag = BagWriter::Create(arguments.out + "/recording.bag", simulator->rig());
-  const Recorded recorded = Record(*simulator, truth.poses(), bag.get(), arguments.quiet);
-  bag->Close(!recorded.complete);
-  const auto poses = truth.poses().Subspan(0, TruthCount(truth.poses(), recorded.last));
-  WriteTum(arguments.out + "/ground_truth.tum", poses, !recorded.complete);
-
-  const double wall = std::chrono::duration<double>(Clock::now() - start).count();
-  const double seconds = SecondsBetween(simulator->start_time(), recorded.last);
-  const Trajectory driven(std::vector<StampedPose>(poses.begin(), poses.end()));
-  std::printf(
-      "simulated %.1f s, %.2f m, slopes up to %.1f degrees, real-time factor %.2f: "
-      "%s/recording%s.bag\n",
-      seconds, driven.Length(), simulator->steepest_slope() * kDegreesPerRadian, seconds / wall,
-      arguments.out.c_str(), recorded.complete ? "" : ".partial");
-  if (!recorded.complete) {
-    LogWarning("interrupted: the recording so far is in files named *.partial.*");
+  const bool recorded = arguments.pairs_only || WriteRecording(arguments, *simulator);
+  const bool paired =
+      arguments.pairs == 0 || (recorded && WritePairs(*simulator, arguments.pairs, arguments.quiet,
+                                                      arguments.out + "/pairs"));
+  if (arguments.pairs > 0 && paired) {
+    std::printf("wrote %d image pairs: %s/pairs/index.csv\n", arguments.pairs,
+                arguments.out.c_str());
   }
-  return recorded.complete ? 0 : kInterrupted;
+  return recorded && paired ? 0 : kInterrupted;
 }
 
 }  // namespace regolith

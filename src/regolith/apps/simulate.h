@@ -21,6 +21,8 @@ struct SimulateArguments {
   bool quiet = false;
   int threads = 2;
   std::string quality = "full";  ///< full, or draft: a coarser mesh
+  int pairs = 0;                 ///< image pairs to write
+  bool pairs_only = false;       ///< no recording
 };
 
 /// `regolith simulate`: drives a rover and writes the recording, its rig, truth, resolved scenario,

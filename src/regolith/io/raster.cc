@@ -254,4 +254,33 @@ void WriteHeights(const std::string& path, const HeightGrid& grid) {
   output.Commit();
 }
 
+void WriteTwoBands(const std::string& path, int width, const std::vector<float>& first,
+                   const std::vector<float>& second) {
+  REGOLITH_CHECK(
+      width > 0 && first.size() == second.size() && first.size() % static_cast<size_t>(width) == 0,
+      first.size(), " and ", second.size(), " pixels in lines of ", width);
+  TemporaryOutput output(path);
+  const QuietGdal quiet;
+  GDALAllRegister();
+  const auto check = [&](bool good) {
+    if (!good) throw OutputError(path, "cannot be written: " + LastError());
+  };
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  const std::array<const char*, 3> options = {"COMPRESS=DEFLATE", "PREDICTOR=3", nullptr};
+  const auto height = static_cast<int>(first.size() / static_cast<size_t>(width));
+  Dataset dataset(driver->Create(output.temporary_path().c_str(), width, height, 2, GDT_Float32,
+                                 options.data()));
+  check(dataset != nullptr);
+  for (int band = 1; band <= 2; ++band) {
+    const std::vector<float>& values = band == 1 ? first : second;
+    check(dataset->GetRasterBand(band)->RasterIO(GF_Write, 0, 0, width, height,
+                                                 const_cast<float*>(values.data()), width, height,
+                                                 GDT_Float32, 0, 0, nullptr) == CE_None);
+  }
+  CPLErrorReset();
+  dataset.reset();
+  check(CPLGetLastErrorType() < CE_Failure);
+  output.Commit();
+}
+
 }  // namespace regolith

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "regolith/terrain/height_grid.h"
 
@@ -30,5 +31,9 @@ HeightGrid ReadHeights(const std::string& path, const std::optional<RasterCrop>&
 /// A GeoTIFF of float32 heights in metres, NaN for no-data, in grid.crs or, where that is empty, in
 /// local metres. Throws OutputError.
 void WriteHeights(const std::string& path, const HeightGrid& grid);
+
+/// A GeoTIFF of two float32 bands, `width` × height pixels each, row by row. Throws OutputError.
+void WriteTwoBands(const std::string& path, int width, const std::vector<float>& first,
+                   const std::vector<float>& second);
 
 }  // namespace regolith

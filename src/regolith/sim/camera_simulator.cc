@@ -15,8 +15,8 @@ namespace {
 constexpr double kSensitivity = 1.8e7;
 constexpr double kTargetLevel = 0.42;  // of full scale, of the lit ground
 constexpr double kLitQuantile = 0.75;
-constexpr double kBrightLevel = 1.0;
-constexpr double kBrightQuantile = 0.8;
+constexpr double kBrightLevel = 0.9;
+constexpr double kBrightQuantile = 0.9;
 constexpr double kStep = 0.5;  // of the way, in stops
 constexpr size_t kRowsAtOnce = 16;
 // Shorter motion than this (pixels) cannot be seen.
@@ -118,7 +118,8 @@ std::vector<float> CameraSimulator::BlurByMotion(const RenderedView& view,
             const int taps = std::min(static_cast<int>(1.5F * length) + 2, kMostMotionTaps);
             float sum = 0.0F;
             for (int tap = 0; tap < taps; ++tap) {
-              const float share = (static_cast<float>(tap) + 0.5F) / static_cast<float>(taps) - 0.5F;
+              const float share =
+                  (static_cast<float>(tap) + 0.5F) / static_cast<float>(taps) - 0.5F;
               const float u = std::clamp(static_cast<float>(column) + share * way.x(), 0.0F,
                                          static_cast<float>(view.width) - 1.001F);
               const float v = std::clamp(static_cast<float>(row) + share * way.y(), 0.0F,
@@ -180,16 +181,16 @@ Image CameraSimulator::Expose(const RenderedView& view, const CameraMotion& moti
   const auto read_variance = static_cast<float>(options_.read_noise * options_.read_noise);
   const float noise_on = options_.noise ? 1.0F : 0.0F;
   const auto width = static_cast<size_t>(options_.width);
-  pool_->ParallelFor(
-      static_cast<size_t>(options_.height), kRowsAtOnce, [&](size_t begin, size_t end, size_t) {
-        for (size_t i = begin * width; i < end * width; ++i) {
-          const float electrons = to_electrons * vignette_[i] * radiance[i];
-          const float noise = noise_on * std::sqrt(electrons + read_variance) *
-                              FastGaussian(Scramble(noise_seed ^ (i << 20)));
-          const float level = to_levels * (electrons + noise) + 0.5F;
-          image.data[i] = static_cast<uint8_t>(std::clamp(level, 0.0F, 255.0F));
-        }
-      });
+  pool_->ParallelFor(static_cast<size_t>(options_.height), kRowsAtOnce,
+                     [&](size_t begin, size_t end, size_t) {
+                       for (size_t i = begin * width; i < end * width; ++i) {
+                         const float electrons = to_electrons * vignette_[i] * radiance[i];
+                         const float noise = noise_on * std::sqrt(electrons + read_variance) *
+                                             FastGaussian(Scramble(noise_seed ^ (i << 20)));
+                         const float level = to_levels * (electrons + noise) + 0.5F;
+                         image.data[i] = static_cast<uint8_t>(std::clamp(level, 0.0F, 255.0F));
+                       }
+                     });
   return image;
 }
 

@@ -58,7 +58,8 @@ class CameraSimulator {
   std::vector<float> BlurByMotion(const RenderedView& view, const CameraMotion& motion,
                                   double time) const;
   void BlurByLens(std::vector<float>* radiance) const;
-  Eigen::Vector2f PixelMotion(const CameraMotion& motion, float distance, int column, int row) const;
+  Eigen::Vector2f PixelMotion(const CameraMotion& motion, float distance, int column,
+                              int row) const;
 
   CameraOptions options_;
   const Renderer& renderer_;

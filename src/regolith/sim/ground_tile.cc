@@ -8,7 +8,7 @@
 namespace regolith {
 namespace {
 
-constexpr float kSlopeScale = 8192.0F;   // slopes up to 4
+constexpr float kSlopeScale = 8192.0F;  // slopes up to 4
 constexpr float kAlbedoScale = 65535.0F;
 constexpr float kLightScale = 16384.0F;  // up to 4: a cliff that faces a low sun
 constexpr float kFillScale = 65535.0F;
@@ -78,7 +78,8 @@ void GroundTile::SetSunlight(const std::vector<float>& sunlit, const Eigen::Vect
   for (size_t i = 0; i < sunlit.size(); ++i) {
     Texel& texel = texels_[i];
     // (normal · sun) / normal.z
-    const float caught = sun.z() - (texel.slope_x * sun.x() + texel.slope_y * sun.y()) / kSlopeScale;
+    const float caught =
+        sun.z() - (texel.slope_x * sun.x() + texel.slope_y * sun.y()) / kSlopeScale;
     texel.light = Pack(sunlit[i] * std::max(caught, 0.0F), kLightScale);
   }
   for (int mip = 1; mip < kMips; ++mip) Average(mip);
@@ -98,8 +99,8 @@ void GroundTile::SetFill(const std::vector<float>& fill) {
         const float b = v - static_cast<float>(row);
         const float* low = &fill[static_cast<size_t>(row * kFillPosts + column)];
         const float* high = low + kFillPosts;
-        const float value =
-            (1.0F - b) * ((1.0F - a) * low[0] + a * low[1]) + b * ((1.0F - a) * high[0] + a * high[1]);
+        const float value = (1.0F - b) * ((1.0F - a) * low[0] + a * low[1]) +
+                            b * ((1.0F - a) * high[0] + a * high[1]);
         Mip(mip)[j * posts + i].fill = Pack(value, kFillScale);
       }
     }
@@ -192,8 +193,8 @@ SurfacePoint GroundTile::At(float x, float y, float width, float length,
     if (coarser > 0.0F) AddBilinear(mip + 1, 0.5F * u, 0.5F * v, share * coarser, &sum);
   }
   SurfacePoint point;
-  point.normal = Eigen::Vector3f(-sum.slope_x / kSlopeScale, -sum.slope_y / kSlopeScale, 1.0F)
-          .normalized();
+  point.normal =
+      Eigen::Vector3f(-sum.slope_x / kSlopeScale, -sum.slope_y / kSlopeScale, 1.0F).normalized();
   point.albedo = sum.albedo / kAlbedoScale;
   point.light = point.normal.z() * sum.light / kLightScale;
   point.fill = sum.fill / kFillScale;

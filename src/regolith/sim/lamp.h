@@ -10,8 +10,8 @@ namespace regolith {
 struct Lamp {
   Eigen::Vector3f place = Eigen::Vector3f::Zero();  ///< m, world
   Eigen::Vector3f axis = Eigen::Vector3f::UnitX();  ///< unit vector, world
-  float irradiance = 0.0F;  ///< of the sun's, at 1 m on the axis; 0 is off
-  float beam = 0.5F;        ///< rad off the axis where it sends half as much
+  float irradiance = 0.0F;                          ///< of the sun's, at 1 m on the axis; 0 is off
+  float beam = 0.5F;  ///< rad off the axis where it sends half as much
 };
 
 }  // namespace regolith

@@ -22,10 +22,10 @@ constexpr uint64_t kDustStream = 2;
 constexpr uint64_t kDustRangeStream = 3;
 constexpr float kMoonAlbedo = 0.12F;  // gives intensity 100 at normal incidence
 // Echoes closer together than the pulse is long (6 ns) are one.
-constexpr size_t kBeamsAtOnce = 5;  // of three rays each in a packet
+constexpr size_t kBeamsAtOnce = 5;    // of three rays each in a packet
 constexpr float kPulseLength = 0.9F;  // m
-constexpr double kEdge = 0.3;  // of the divergence, from the axis: about one sigma
-constexpr double kDustReach = 4.0;   // m, mean range of dust's returns
+constexpr double kEdge = 0.3;         // of the divergence, from the axis: about one sigma
+constexpr double kDustReach = 4.0;    // m, mean range of dust's returns
 constexpr float kDustIntensity = 4.0F;
 
 // How a return is lost: little light comes back at grazing incidence and from afar, and a beam
@@ -58,9 +58,10 @@ void LidarSimulator::AimBeams() {
       // Clockwise from straight ahead, seen from above, as Velodyne's turn.
       const double azimuth =
           -2.0 * M_PI * firing / options_.firings - turn_rate * LaserDelay(laser);
-      const double share = options_.rings > 1 ? static_cast<double>(rings_[static_cast<size_t>(laser)]) /
-                                                    (options_.rings - 1)
-                                              : 0.0;
+      const double share =
+          options_.rings > 1
+              ? static_cast<double>(rings_[static_cast<size_t>(laser)]) / (options_.rings - 1)
+              : 0.0;
       const double elevation =
           kDegree * (options_.lowest_deg + share * (options_.highest_deg - options_.lowest_deg));
       const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
@@ -103,13 +104,12 @@ void LidarSimulator::CastFirings(double start, int begin, int end, Return* retur
   std::vector<Firing> firings;
   for (int firing = begin; firing < end; ++firing) {
     const MotionState motion = motion_.At(start + firing / (options_.rate * options_.firings));
-    firings.push_back({static_cast<size_t>(firing) * static_cast<size_t>(options_.rings),
-                       motion.T_world_imu.rotation.toRotationMatrix().cast<float>(),
-                       T_imu_lidar.rotation.toRotationMatrix().cast<float>(),
-                       T_imu_lidar.translation.cast<float>(),
-                       motion.T_world_imu.translation.cast<float>(),
-                       motion.v_world_imu.cast<float>(),
-                       motion.angular_velocity_imu.cast<float>()});
+    firings.push_back(
+        {static_cast<size_t>(firing) * static_cast<size_t>(options_.rings),
+         motion.T_world_imu.rotation.toRotationMatrix().cast<float>(),
+         T_imu_lidar.rotation.toRotationMatrix().cast<float>(),
+         T_imu_lidar.translation.cast<float>(), motion.T_world_imu.translation.cast<float>(),
+         motion.v_world_imu.cast<float>(), motion.angular_velocity_imu.cast<float>()});
   }
   RayPacket rays;
   for (int laser = 0; laser < options_.rings; ++laser) {
@@ -143,8 +143,9 @@ void LidarSimulator::AimLaser(const Firing& firing, int laser, int lane, RayPack
   const Eigen::Vector3f up = axis.cross(left);
   const int part = lane % kBeamRays;
   const Eigen::Vector3f direction =
-      part == 0 ? Eigen::Vector3f(axis + 1.15F * along * up)
-                : Eigen::Vector3f(axis + (part == 1 ? across : -across) * left - 0.58F * along * up);
+      part == 0
+          ? Eigen::Vector3f(axis + 1.15F * along * up)
+          : Eigen::Vector3f(axis + (part == 1 ? across : -across) * left - 0.58F * along * up);
   // The few microseconds since the firing's start: the body's motion is linear.
   const auto delay = static_cast<float>(LaserDelay(laser));
   const auto move = [&](const Eigen::Vector3f& v) -> Eigen::Vector3f {
@@ -173,8 +174,7 @@ LidarSimulator::Return LidarSimulator::Receive(const RayPacket& rays, int first_
 
 // Echoes by range; the group of close ones with the most energy is the return.
 LidarSimulator::Return LidarSimulator::Combine(Echo* echoes, int count) const {
-  std::sort(echoes, echoes + count,
-            [](const Echo& a, const Echo& b) { return a.range < b.range; });
+  std::sort(echoes, echoes + count, [](const Echo& a, const Echo& b) { return a.range < b.range; });
   Return best;
   float best_energy = 0.0F;
   for (int begin = 0; begin < count;) {
@@ -193,7 +193,8 @@ LidarSimulator::Return LidarSimulator::Combine(Echo* echoes, int count) const {
       const float cosine = sum.cosine / sum.energy;
       const float albedo = sum.albedo / sum.energy;
       best.chance = LossShape(best.range, cosine, albedo);
-      best.intensity = std::min(100.0F / kMoonAlbedo * sum.energy * best.range * best.range, 255.0F);
+      best.intensity =
+          std::min(100.0F / kMoonAlbedo * sum.energy * best.range * best.range, 255.0F);
     }
     begin = end;
   }
@@ -233,7 +234,8 @@ LidarScan LidarSimulator::Scan(double start, uint64_t scan_index) const {
     LidarPoint point;
     point.position = static_cast<float>(range) * directions_[beam];
     point.intensity = echo.intensity;
-    point.time = static_cast<float>(firing / (options_.rate * options_.firings) + LaserDelay(laser));
+    point.time =
+        static_cast<float>(firing / (options_.rate * options_.firings) + LaserDelay(laser));
     point.ring = static_cast<uint16_t>(rings_[static_cast<size_t>(laser)]);
     scan.points.push_back(point);
   }

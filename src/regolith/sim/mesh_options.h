@@ -7,8 +7,8 @@ namespace regolith {
 /// How finely the ground is meshed: posts of `spacing` near the path, each ring outwards twice as
 /// far apart.
 struct MeshOptions {
-  double spacing = 0.01;   ///< m; 0.005, 0.01, 0.02 or 0.04
-  double reach = 1000.0;   ///< m, from the path to the ground's border
+  double spacing = 0.01;  ///< m; 0.005, 0.01, 0.02 or 0.04
+  double reach = 1000.0;  ///< m, from the path to the ground's border
 };
 
 }  // namespace regolith

@@ -51,8 +51,7 @@ double MartianPhase(double g) {
 }
 
 float Lookup(float cosine, const float* table, size_t last) {
-  const float place =
-      std::clamp(0.5F * (cosine + 1.0F), 0.0F, 1.0F) * static_cast<float>(last);
+  const float place = std::clamp(0.5F * (cosine + 1.0F), 0.0F, 1.0F) * static_cast<float>(last);
   const auto index = std::min(static_cast<size_t>(place), last - 1);
   const float fraction = place - static_cast<float>(index);
   return table[index] + fraction * (table[index + 1] - table[index]);
@@ -89,10 +88,10 @@ Photometry::Photometry(const std::string& planet, const SunOptions& sun, double 
     for (int i = 0; i < kSteps; ++i) {
       const double share = (i + 0.5) / kSteps;
       const double angle = 2.3999632 * i;
-      sum += static_cast<double>(SkyShape(
-          Eigen::Vector3d(std::sqrt(share) * std::cos(angle), std::sqrt(share) * std::sin(angle),
-                          std::sqrt(1.0 - share))
-              .cast<float>()));
+      sum += static_cast<double>(
+          SkyShape(Eigen::Vector3d(std::sqrt(share) * std::cos(angle),
+                                   std::sqrt(share) * std::sin(angle), std::sqrt(1.0 - share))
+                       .cast<float>()));
     }
     sky_scale_ = static_cast<float>(static_cast<double>(diffuse_) * kSteps / sum);
   }
@@ -116,8 +115,7 @@ float Photometry::Ground(const SurfacePoint& point, const Eigen::Vector3f& to_vi
   float light = point.fill;
   if (point.light > 0.0F) {
     const float incidence = std::max(point.normal.dot(sun_.direction), point.light);
-    light += direct_ *
-             Scattered(point.light, incidence, emission, sun_.direction.dot(to_viewer));
+    light += direct_ * Scattered(point.light, incidence, emission, sun_.direction.dot(to_viewer));
   }
   return point.albedo * light;
 }

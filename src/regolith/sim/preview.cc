@@ -82,7 +82,8 @@ Image RenderPreview(const Scene& scene, const Photometry& photometry,
   RenderedView view;
   renderer.Render(T_world_camera, Surroundings{}, &view);
   const Exposure exposure = ExposureControl(options).Next(view);
-  Image image = CameraSimulator(options, renderer, pool).Expose(view, CameraMotion{}, exposure, 0, 0);
+  Image image =
+      CameraSimulator(options, renderer, pool).Expose(view, CameraMotion{}, exposure, 0, 0);
   const auto model = CameraModel::Create(MakeIntrinsics(options));
   const SE3 T_camera_world = T_world_camera.Inverse();
   constexpr int kDots = 24;

@@ -23,9 +23,9 @@ constexpr float kToleranceByMetre = 0.012F;
 constexpr float kMostTolerance = 0.3F;
 // Neighbouring pixels of one surface differ less than this in distance.
 constexpr float kEdgeRatio = 1.12F;
-constexpr int kSubsamples = 2;  // beside the one in the middle
+constexpr int kSubsamples = 2;           // beside the one in the middle
 constexpr float kSubsampleShift = 0.3F;  // pixels
-constexpr float kLift = 1e-3F;            // m, of rays that start on a surface
+constexpr float kLift = 1e-3F;           // m, of rays that start on a surface
 
 // The same class of objects: all ground is one.
 uint32_t Class(const Scene& scene, uint32_t object) {
@@ -126,7 +126,8 @@ bool Renderer::Interpolate(const Pose& pose, const Line& first, int first_column
   if (scene_.IsRock(object) || scene_.IsRock(second.objects[other])) return false;
   const float nearer = std::min(first.distances[one], second.distances[other]);
   const float farther = std::max(first.distances[one], second.distances[other]);
-  if (farther - nearer > std::min(tolerance + kToleranceByMetre * nearer, kMostTolerance) * nearer) {
+  if (farther - nearer >
+      std::min(tolerance + kToleranceByMetre * nearer, kMostTolerance) * nearer) {
     return false;
   }
   const float distance = 2.0F * nearer * farther / (nearer + farther);
@@ -139,10 +140,10 @@ bool Renderer::Interpolate(const Pose& pose, const Line& first, int first_column
 }
 
 // Casts every second of the wanted columns, and those that cannot be interpolated between them.
-void Renderer::CastSparse(const Pose& pose, int parity, Span<const char> wanted,
-                          Line* line) const {
+void Renderer::CastSparse(const Pose& pose, int parity, Span<const char> wanted, Line* line) const {
   const auto is_wanted = [&](int column) {
-    return column >= 0 && column < width_ && (wanted.empty() || wanted[static_cast<size_t>(column)]);
+    return column >= 0 && column < width_ &&
+           (wanted.empty() || wanted[static_cast<size_t>(column)]);
   };
   std::vector<int> columns;
   for (int column = parity; column < width_; column += 2) {
@@ -244,8 +245,7 @@ Eigen::Vector3f Renderer::Between(int column, int row, float right, float down) 
   const int lower_row = std::min(row + 1, height_ - 1);
   const float across = right / static_cast<float>(right_column - left_column);
   const float along = down / static_cast<float>(lower_row - upper_row);
-  return (bearing(column, row) +
-          across * (bearing(right_column, row) - bearing(left_column, row)) +
+  return (bearing(column, row) + across * (bearing(right_column, row) - bearing(left_column, row)) +
           along * (bearing(column, lower_row) - bearing(column, upper_row)))
       .normalized();
 }
@@ -393,7 +393,9 @@ void Renderer::AddLamp(const RayPacket& rays, int count, const Lamp& lamp,
   for (int lane = 0; lane < kPacketSize; ++lane) {
     to_lamp.Off(lane);
     if (lane >= count || rays.object[lane] == kNothing) continue;
-    const Eigen::Vector3f place = rays.Point(lane) + kLift * points[lane].normal;
+    // Interpolated places may lie a little under the ground.
+    const Eigen::Vector3f place = rays.Point(lane) + kLift * points[lane].normal -
+                                  kToleranceAcross * rays.distance[lane] * rays.Direction(lane);
     const Eigen::Vector3f towards = lamp.place - place;
     to_lamp.Set(lane, place, towards.normalized(), towards.norm());
   }
@@ -403,10 +405,9 @@ void Renderer::AddLamp(const RayPacket& rays, int count, const Lamp& lamp,
     if (to_lamp.limit[lane] < 0.0F || seen.distance[lane] == 0.0F) continue;
     const Eigen::Vector3f direction = to_lamp.Direction(lane);
     const float off = std::acos(std::clamp(-direction.dot(lamp.axis), -1.0F, 1.0F)) / lamp.beam;
-    const float irradiance = lamp.irradiance * std::exp2(-off * off) /
-                             (to_lamp.limit[lane] * to_lamp.limit[lane]);
-    radiance[lane] +=
-        photometry_.LitBy(points[lane], direction, irradiance, -rays.Direction(lane));
+    const float irradiance =
+        lamp.irradiance * std::exp2(-off * off) / (to_lamp.limit[lane] * to_lamp.limit[lane]);
+    radiance[lane] += photometry_.LitBy(points[lane], direction, irradiance, -rays.Direction(lane));
   }
 }
 

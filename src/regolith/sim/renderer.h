@@ -34,8 +34,8 @@ struct Surroundings {
 
 /// Casts the rays of a camera. Ground without a crest between two rays has an inverse distance that
 /// is linear in the image (exactly so for a plane), so a ray between two that nearly agree is
-/// interpolated: a third of the rays give the same picture. Far ground, whose pixels are much longer
-/// than wide, is looked at between the lines too; pixels with an edge in four places.
+/// interpolated: a third of the rays give the same picture. Far ground, whose pixels are much
+/// longer than wide, is looked at between the lines too; pixels with an edge in four places.
 class Renderer {
  public:
   Renderer(const CameraIntrinsics& intrinsics, const Scene& scene, const Photometry& photometry,

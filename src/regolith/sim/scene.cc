@@ -57,8 +57,8 @@ RTCGeometry GridGeometry(RTCDevice device, const GroundTile& tile) {
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                              tile.positions().data(), 0, sizeof(Eigen::Vector3f),
                              tile.positions().size());
-  auto* grid = static_cast<RTCGrid*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, sizeof(RTCGrid), 1));
+  auto* grid = static_cast<RTCGrid*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0,
+                                                             RTC_FORMAT_GRID, sizeof(RTCGrid), 1));
   REGOLITH_CHECK(grid != nullptr, "Embree gave no memory for a tile");
   grid->startVertexID = 0;
   grid->stride = GroundTile::kSkirtPosts;
@@ -327,8 +327,7 @@ void EmbreeScene::CastLight(const std::vector<Tile*>& tiles) {
   });
 }
 
-SurfacePoint EmbreeScene::Look(const RayPacket& rays, int lane, float width,
-                               float height) const {
+SurfacePoint EmbreeScene::Look(const RayPacket& rays, int lane, float width, float height) const {
   const uint32_t object = rays.object[lane];
   if (IsRock(object)) return LookAtRock(rays, lane);
   const GroundTile& tile = *by_id_[object - rocks_.size()];
@@ -395,8 +394,8 @@ void CastSunlight(const Scene& scene, const SunDisc& sun, Span<const Eigen::Vect
   for (int ray = 0; ray < kSunRays; ++ray) {
     const float radius = sun.radius * std::sqrt((static_cast<float>(ray) + 0.5F) / kSunRays);
     const float angle = kGoldenAngle * static_cast<float>(ray);
-    to_sun[ray] =
-        (sun.direction + radius * (std::cos(angle) * across + std::sin(angle) * along)).normalized();
+    to_sun[ray] = (sun.direction + radius * (std::cos(angle) * across + std::sin(angle) * along))
+                      .normalized();
   }
   RayPacket rays;
   for (size_t first = 0; first < places.size(); first += kPlacesAtOnce) {

@@ -39,7 +39,8 @@ class Scene {
   virtual void Occluded(RayPacket* rays) const = 0;
 
   /// The surface where a ray that Intersect filled meets it, averaged over the footprint of a ray
-  /// that is `width` m wide and `height` m high there. A rock's light and fill are zero: they are not cast beforehand.
+  /// that is `width` m wide and `height` m high there. A rock's light and fill are zero: they are
+  /// not cast beforehand.
   virtual SurfacePoint Look(const RayPacket& rays, int lane, float width, float height) const = 0;
 
   virtual bool IsRock(uint32_t object) const = 0;

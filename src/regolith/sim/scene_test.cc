@@ -27,8 +27,11 @@ class TestSurface : public Surface {
   std::vector<RockShape> RockShapes() const override {
     // A pyramid of diameter 1 and height 1.
     RockShape shape;
-    shape.vertices = {{0.5F, 0.5F, -0.1F}, {-0.5F, 0.5F, -0.1F}, {-0.5F, -0.5F, -0.1F},
-                      {0.5F, -0.5F, -0.1F}, {0.0F, 0.0F, 1.0F}};
+    shape.vertices = {{0.5F, 0.5F, -0.1F},
+                      {-0.5F, 0.5F, -0.1F},
+                      {-0.5F, -0.5F, -0.1F},
+                      {0.5F, -0.5F, -0.1F},
+                      {0.0F, 0.0F, 1.0F}};
     for (const Eigen::Vector3f& vertex : shape.vertices) {
       shape.normals.push_back((vertex + Eigen::Vector3f(0.0F, 0.0F, 0.2F)).normalized());
     }

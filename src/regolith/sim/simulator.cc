@@ -30,12 +30,16 @@ namespace {
 
 constexpr TimeNs kEpoch = 1'700'000'000'000'000'000;  // an arbitrary date, as a real recorder's
 constexpr double kDegree = M_PI / 180.0;
-constexpr double kTruthRate = 100.0;                  // Hz
-constexpr double kTerrainMargin = 30.0;               // m
+constexpr double kTruthRate = 100.0;     // Hz
+constexpr double kTerrainMargin = 30.0;  // m
 constexpr double kTerrainSpacing = 0.05;
-constexpr double kSettlePeriod = 1.0;     // s between two exchanges of ground tiles
+constexpr double kSettlePeriod = 1.0;      // s between two exchanges of ground tiles
 constexpr double kSunIlluminance = 1.3e5;  // lx, of the sun above the air at the Earth
-constexpr double kPathEnd = 1.0;  // s of path beyond the last measurement
+constexpr int kOtherSuns = 4;              // in a set of pairs
+constexpr double kPairYaw = 0.2;           // rad, standard deviations between the images of a pair
+constexpr double kPairTilt = 0.06;         // rad
+constexpr double kPairShift = 0.25;        // m
+constexpr double kPathEnd = 1.0;           // s of path beyond the last measurement
 const char* const kCameras[] = {"mono", "left", "right"};
 
 std::unique_ptr<Surface> MakeSurface(const ScenarioOptions& options, const HeightGrid* dem) {
@@ -69,12 +73,24 @@ std::vector<Rock> RocksInWorld(const Surface& surface, const Drive& drive,
 
 CameraMotion MotionOf(const MotionState& motion, const SE3& T_imu_camera) {
   const Eigen::Quaterniond R_camera_imu = T_imu_camera.rotation.conjugate();
-  const Eigen::Vector3d v_imu =
-      motion.T_world_imu.rotation.conjugate() * motion.v_world_imu +
-      motion.angular_velocity_imu.cross(T_imu_camera.translation);
+  const Eigen::Vector3d v_imu = motion.T_world_imu.rotation.conjugate() * motion.v_world_imu +
+                                motion.angular_velocity_imu.cross(T_imu_camera.translation);
   return {(R_camera_imu * v_imu).cast<float>(),
           (R_camera_imu * motion.angular_velocity_imu).cast<float>()};
 }
+
+// What is needed to see the same ground under another sun.
+struct OtherSun {
+  OtherSun(const ScenarioOptions& options, const SunOptions& sun, const Ground& ground,
+           const std::vector<Eigen::Vector2d>& places, std::vector<Rock> rocks, ThreadPool* pool)
+      : photometry(options.planet, sun, options.terrain.albedo.mean),
+        scene(Scene::Create(ground, places, std::move(rocks), photometry, options.mesh, pool)),
+        renderer(MakeIntrinsics(options.camera), *scene, photometry, pool) {}
+
+  Photometry photometry;
+  std::unique_ptr<Scene> scene;
+  Renderer renderer;
+};
 
 // The measurements of one sensor, evenly spaced.
 struct Schedule {
@@ -100,8 +116,8 @@ class RoverSimulator : public Simulator {
         ground_(*surface_, motion_.origin()),
         photometry_(options.planet, options.sun, options.terrain.albedo.mean),
         scene_(Scene::Create(ground_, Places(motion_, options.duration),
-                             RocksInWorld(*surface_, drive_, motion_, options.duration), photometry_,
-                             options.mesh, pool)),
+                             RocksInWorld(*surface_, drive_, motion_, options.duration),
+                             photometry_, options.mesh, pool)),
         renderer_(MakeIntrinsics(options.camera), *scene_, photometry_, pool),
         camera_(options.camera, renderer_, pool),
         lidar_(options.lidar, *scene_, motion_, StreamSeed(options.seed, "lidar"), pool),
@@ -148,6 +164,8 @@ class RoverSimulator : public Simulator {
     return RenderPreview(*scene_, photometry_, track, pool_);
   }
 
+  ImagePair Pair(int index, int count) override;
+
   double steepest_slope() const override { return drive_.steepest; }
 
  private:
@@ -158,6 +176,7 @@ class RoverSimulator : public Simulator {
   void Settle(double time);
   Exposure ChooseExposure(const std::string& camera);
   Lamp LampAt(const SE3& T_world_base) const;
+  void ChangeOtherSun(int index);
 
   ScenarioOptions options_;
   ThreadPool* pool_;
@@ -173,6 +192,8 @@ class RoverSimulator : public Simulator {
   std::map<std::string, Exposure> exposures_;
   RenderedView view_;
   int64_t settled_ = -1;
+  std::unique_ptr<OtherSun> other_sun_;
+  int other_sun_index_ = -1;
   LidarSimulator lidar_;
   ImuSimulator imu_;
   WheelSimulator wheels_;
@@ -233,8 +254,7 @@ void RoverSimulator::Settle(double time) {
 // The right camera is exposed as the left one, so that a pair looks alike.
 Exposure RoverSimulator::ChooseExposure(const std::string& camera) {
   if (camera == "right") return exposures_.at("left");
-  ExposureControl& control =
-      exposure_controls_.try_emplace(camera, options_.camera).first->second;
+  ExposureControl& control = exposure_controls_.try_emplace(camera, options_.camera).first->second;
   return exposures_[camera] = control.Next(view_);
 }
 
@@ -242,9 +262,9 @@ Lamp RoverSimulator::LampAt(const SE3& T_world_base) const {
   const LampOptions& options = options_.lamp;
   const SE3 T_base_camera = BaseFromCamera(options_.camera, "mono");
   Lamp lamp;
-  lamp.place = (T_world_base * Eigen::Vector3d(T_base_camera.translation.x(), options.side,
-                                               options.height))
-                   .cast<float>();
+  lamp.place =
+      (T_world_base * Eigen::Vector3d(T_base_camera.translation.x(), options.side, options.height))
+          .cast<float>();
   lamp.axis =
       (T_world_base.rotation * T_base_camera.rotation * Eigen::Vector3d::UnitZ()).cast<float>();
   lamp.irradiance = static_cast<float>(options.candela / kSunIlluminance);
@@ -270,6 +290,63 @@ SensorEvent RoverSimulator::NextFrame() {
     ++camera_schedule_.next;
   }
   return frame;
+}
+
+// Casting a scene's light takes seconds, so many pairs share one other sun.
+void RoverSimulator::ChangeOtherSun(int index) {
+  if (index == other_sun_index_) return;
+  other_sun_index_ = index;
+  Random random(options_.seed, "other sun");
+  SunOptions sun = options_.sun;
+  for (int i = 0; i <= index; ++i) {
+    sun.azimuth_deg = options_.sun.azimuth_deg + random.Uniform(60.0, 300.0);
+    sun.elevation_deg = random.Uniform(8.0, 50.0);
+  }
+  other_sun_.reset();
+  other_sun_ = std::make_unique<OtherSun>(
+      options_, sun, ground_, Places(motion_, options_.duration),
+      RocksInWorld(*surface_, drive_, motion_, options_.duration), pool_);
+}
+
+ImagePair RoverSimulator::Pair(int index, int count) {
+  Random random(StreamSeed(options_.seed, "pair") + static_cast<uint64_t>(index));
+  const double time = options_.drive.rest + (options_.duration - options_.drive.rest) *
+                                                (index + 0.5) / static_cast<double>(count);
+  const SE3 T_imu_camera = BaseFromImu().Inverse() * BaseFromCamera(options_.camera, "mono");
+  const SE3 T_world_first = motion_.PoseAt(time) * T_imu_camera;
+  const double later = std::min(time + random.Uniform(0.0, 3.0), options_.duration);
+  // Turned and shifted as if the rover had come back another way.
+  const Eigen::Quaterniond turn =
+      Eigen::AngleAxisd(random.Gaussian(0.0, kPairYaw), Eigen::Vector3d::UnitY()) *
+      Eigen::AngleAxisd(random.Gaussian(0.0, kPairTilt), Eigen::Vector3d::UnitX()) *
+      Eigen::AngleAxisd(random.Gaussian(0.0, kPairTilt), Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d shift(random.Gaussian(0.0, kPairShift), 0.0,
+                              random.Gaussian(0.0, kPairShift));
+  const SE3 T_world_second = motion_.PoseAt(later) * T_imu_camera * SE3(turn, shift);
+  const Eigen::Vector2d place = T_world_first.translation.head<2>();
+  scene_->MoveTo(place);
+  settled_ = -1;
+  ImagePair pair;
+  pair.same_sun = index % 2 == 0;
+  if (!pair.same_sun) {
+    ChangeOtherSun(index * kOtherSuns / count);
+    other_sun_->scene->MoveTo(place);
+  }
+  pair.baseline = (T_world_second.translation - T_world_first.translation).norm();
+  pair.rotation = T_world_first.rotation.angularDistance(T_world_second.rotation);
+  const auto seed = StreamSeed(options_.seed, "pair noise");
+  const auto frame = 2 * static_cast<uint64_t>(index);
+  const auto expose = [&](const Renderer& renderer, const SE3& T_world_camera, uint64_t number) {
+    const SE3 T_world_base = T_world_camera * BaseFromCamera(options_.camera, "mono").Inverse();
+    renderer.Render(T_world_camera, {nullptr, LampAt(T_world_base)}, &view_);
+    return camera_.Expose(view_, CameraMotion{}, ExposureControl(options_.camera).Next(view_), seed,
+                          number);
+  };
+  pair.second = expose(pair.same_sun ? renderer_ : other_sun_->renderer, T_world_second, frame + 1);
+  pair.first = expose(renderer_, T_world_first, frame);
+  FindFlow(*scene_, renderer_, MakeIntrinsics(options_.camera), view_, T_world_first,
+           T_world_second, pool_, &pair);
+  return pair;
 }
 
 HeightGrid RoverSimulator::TerrainAroundPath() const {

@@ -11,6 +11,7 @@
 #include "regolith/geometry/trajectory.h"
 #include "regolith/sensor/rig_calibration.h"
 #include "regolith/sensor/sensor_event.h"
+#include "regolith/sim/image_pair.h"
 #include "regolith/sim/scenario_options.h"
 #include "regolith/terrain/height_grid.h"
 
@@ -38,6 +39,11 @@ class Simulator : public SensorSource {
 
   /// A view of the ground for people, with the rover's track drawn in; 1280 × 720.
   virtual Image Preview() = 0;
+
+  /// Pair `index` of `count` along the drive: the mono camera's image, and another from a place up
+  /// to a metre or two away, turned; every second pair under another sun. Pairs are to be asked for
+  /// in their order.
+  virtual ImagePair Pair(int index, int count) = 0;
 
   /// Steepest slope on the path, rad.
   virtual double steepest_slope() const = 0;

@@ -254,8 +254,8 @@ TEST(Photometry, MarsHasASkyThatSendsItsShareOfTheLight) {
     const double share = (i + 0.5) / kRays;
     const double angle = 2.399963 * i;
     sky += static_cast<double>(mars.SkyWithoutSun(
-               Eigen::Vector3d(std::sqrt(share) * std::cos(angle), std::sqrt(share) * std::sin(angle),
-                               std::sqrt(1.0 - share))
+               Eigen::Vector3d(std::sqrt(share) * std::cos(angle),
+                               std::sqrt(share) * std::sin(angle), std::sqrt(1.0 - share))
                    .cast<float>())) /
            kRays;
   }
