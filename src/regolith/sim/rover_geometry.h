@@ -28,7 +28,7 @@ SE3 BaseFromCamera(const CameraOptions& options, const std::string& camera);
 
 /// A part of the rover's body.
 struct RoverBox {
-  SE3 T_base_box;                                        ///< at its centre
+  SE3 T_base_box;                                       ///< at its centre
   Eigen::Vector3d half_size = Eigen::Vector3d::Zero();  ///< m
 };
 

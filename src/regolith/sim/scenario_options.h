@@ -50,7 +50,7 @@ struct SunOptions {
 
 /// A headlight beside the cameras.
 struct LampOptions {
-  double candela = 0.0;  ///< cd on the axis; 0 is off. A pair of 10,000 lm LED lamps has 20,000
+  double candela = 0.0;    ///< cd on the axis; 0 is off. A pair of 10,000 lm LED lamps has 20,000
   double beam_deg = 35.0;  ///< degrees off the axis where it sends half as much
   double height = 0.9;     ///< m above the ground
   double side = 0.25;      ///< m to the left of the cameras
@@ -81,15 +81,15 @@ struct CameraOptions {
 
 struct LidarOptions {
   int rings = 16;
-  double lowest_deg = -15.0;  ///< elevation of ring 0
-  double highest_deg = 15.0;  ///< elevation of the last ring
-  double rate = 10.0;         ///< turns a second
-  int firings = 1800;         ///< a turn
-  double min_range = 0.5;     ///< m
-  double max_range = 100.0;   ///< m
-  double range_sigma = 0.02;  ///< m
-  double dropout = 0.05;      ///< mean share lost of the rays that meet ground within 30 m
-  double mast = 1.2;          ///< m above the ground
+  double lowest_deg = -15.0;         ///< elevation of ring 0
+  double highest_deg = 15.0;         ///< elevation of the last ring
+  double rate = 10.0;                ///< turns a second
+  int firings = 1800;                ///< a turn
+  double min_range = 0.5;            ///< m
+  double max_range = 100.0;          ///< m
+  double range_sigma = 0.02;         ///< m
+  double dropout = 0.05;             ///< mean share lost of the rays that meet ground within 30 m
+  double mast = 1.2;                 ///< m above the ground
   double laser_interval = 2.304e-6;  ///< s between two lasers of a firing (VLP-16 manual)
   double divergence_across = 0.003;  ///< rad, of a beam (VLS-128 manual)
   double divergence_along = 0.0015;  ///< rad, up and down
