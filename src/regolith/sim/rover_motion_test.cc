@@ -212,17 +212,18 @@ TEST_F(RoverMotionTest, TurnsOnTheSpotWithinItsRateAndStops) {
   double fastest_turn = 0.0;
   double turned = 0.0;
   double length = 0.0;
-  for (double time = 0.0; time < 40.0; time += 0.01) {
+  for (double time = 0.0; time < 60.0; time += 0.01) {
     const MotionState state = motion_.SmoothAt(time);
     const double rate = std::abs(state.angular_velocity_imu.z());
-    length += 0.01 * state.v_world_imu.norm();
+    if (time < 40.0) length += 0.01 * state.v_world_imu.norm();
     if (state.v_world_imu.norm() > 0.05) continue;
     fastest_turn = std::max(fastest_turn, rate);
     turned += 0.01 * rate;
   }
-  EXPECT_GT(turned, 20.0 * kDegree);  // turn_deg is 30, less what the leg takes
+  EXPECT_GT(turned, 20.0 * kDegree);  // two turns of turn_deg 30, less what the legs take
   EXPECT_LT(fastest_turn, 21.0 * kDegree);
-  EXPECT_NEAR(length, 17.0, 1.5);
+  EXPECT_GT(length, 17.0);
+  EXPECT_LT(length, 19.0);
 }
 
 }  // namespace
