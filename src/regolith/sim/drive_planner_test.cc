@@ -129,6 +129,20 @@ TEST(PlanDrive, WanderingCoversItsLengthInTime) {
   }
 }
 
+TEST(PlanDrive, CurvesAreNoSharperThanAllowed) {
+  const Rocky surface(0.5);
+  const DriveOptions options = MarsLoops();
+  const Drive drive = PlanDrive(surface, options, RoverOptions{}, 1, 300.0, kMotionInterval);
+  double sharpest = 0.0;
+  for (size_t i = 1; i < drive.path.size(); ++i) {
+    const double step = (drive.path[i].position - drive.path[i - 1].position).norm();
+    if (step < 0.02) continue;
+    sharpest = std::max(sharpest, std::abs(drive.path[i].yaw - drive.path[i - 1].yaw) / step);
+  }
+  EXPECT_LT(sharpest, 1.05 * options.curvature);
+  EXPECT_GT(sharpest, 0.5 * options.curvature);
+}
+
 TEST(PlanDrive, ALongerDriveBeginsAsTheShorterOne) {
   const Rocky surface(0.0);
   const DriveOptions options;
