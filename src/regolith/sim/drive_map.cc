@@ -20,6 +20,7 @@ constexpr int kBins = 16;              // of 1 m along a tile
 constexpr double kKnownMargin = 3.0;   // m of real ground on all sides
 constexpr double kBodyRadius = 0.65;   // m, of the rover seen from above, wheels included
 constexpr double kTrackMargin = 0.03;  // m: front wheels leave the base's track in curves
+constexpr double kJointMargin = 0.06;  // m: outside a curve, pieces of track leave a wedge open
 constexpr double kLargestRock = 8.0;   // m
 constexpr auto kClosed = std::numeric_limits<float>::infinity();
 
@@ -143,7 +144,7 @@ int DriveMap::TrackHits(const Eigen::Vector2d& middle, double yaw, double length
       if (offset.norm() < kBodyRadius + 0.5 * rock.diameter) return -1;
       continue;
     }
-    if (std::abs(offset.dot(ahead)) > 0.5 * length) continue;
+    if (std::abs(offset.dot(ahead)) > 0.5 * length + kJointMargin) continue;
     const double aside = ahead.x() * offset.y() - ahead.y() * offset.x();
     if (OnWheelTrack(aside, rock.diameter + 2.0 * kTrackMargin)) ++hits;
   }

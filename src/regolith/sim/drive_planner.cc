@@ -12,6 +12,7 @@
 #include "regolith/sim/drive_map.h"
 #include "regolith/sim/drive_timing.h"
 #include "regolith/sim/leg_search.h"
+#include "regolith/sim/revisits.h"
 #include "regolith/sim/route_layout.h"
 #include "regolith/sim/rover_geometry.h"
 #include "regolith/sim/suspension.h"
@@ -21,17 +22,25 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 constexpr int kCandidates = 60;                // places looked at
-constexpr int kTries = 8;                      // places planned at
+constexpr int kTries = 12;                     // places planned at
+constexpr int kRoutes = 3;                     // routes found, of which the best is taken
 constexpr int kRepairs = 6;                    // new searches for a leg whose check fails
+constexpr int kWidenings = 2;                  // rounds of them, each farther from the nominal leg
+constexpr int kTurnYaws = 16;                  // checked where the rover turns
 constexpr double kReserve = 0.5 * kDegree;     // below max_slope: what a check allows
 constexpr double kMapReserve = 1.5 * kDegree;  // below max_slope: what the search allows
 constexpr double kCorridor = 5.0;              // m
 constexpr double kRetraceCorridor = 1.5;       // m: within kRevisitReach of the old track
-constexpr double kCheckStep = 0.15;            // m
+constexpr double kTargetReach = 2.4;           // m from the nominal end of a leg to the real one
+constexpr double kCheckStep = 0.05;            // m
 constexpr double kNominalStep = 0.5;           // m
-constexpr double kRevisitGap = 20.0;           // m of track between a place and its revisit
 constexpr double kKnownMargin = 3.0;           // m
 constexpr double kWidestFirstTurn = 10.0 * kDegree;
+constexpr double kLeastPace = 0.97;      // of the nominal route's: slower is not wanted
+constexpr double kGoodEnough = 1.5;      // of badness
+constexpr double kMostDetour = 1.3;      // length of a leg, relative to the nominal one
+constexpr double kRevisitReserve = 1.0;  // m
+constexpr double kMostCleared = 0.02;    // rocks a metre that need not be avoided
 
 struct Placement {
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
@@ -45,10 +54,11 @@ struct Placement {
   }
 };
 
-// A route that was found: legs, and what its check measured.
+// A route that was found: legs, and what their checks measured.
 struct Route {
   std::vector<LegCurve> legs;
   double steepest = 0.0;
+  double badness = 0.0;  // how far it is from what is wanted
 };
 
 struct Check {
@@ -56,6 +66,22 @@ struct Check {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
   bool stands = true;
 };
+
+struct CheckedLeg {
+  std::vector<Eigen::Vector2d> points;
+  double steepest = 0.0;
+};
+
+// The points of a nominal leg, placed, and bent so that they begin at `start`.
+std::vector<Eigen::Vector2d> Led(std::vector<Eigen::Vector2d> points, const Placement& placement,
+                                 const Eigen::Vector2d& start) {
+  const Eigen::Vector2d moved = start - placement(points.front());
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(points.size() - 1);
+    points[i] = placement(points[i]) + (1.0 - share) * moved;
+  }
+  return points;
+}
 
 class Planner {
  public:
@@ -81,9 +107,14 @@ class Planner {
   std::vector<Placement> Placements();
   std::optional<double> Score(const Placement& placement) const;
   std::optional<Route> Plan(const Placement& placement);
-  std::optional<std::vector<Eigen::Vector2d>> PlanLeg(LegRequest request);
-  Eigen::Vector2d Target(const Eigen::Vector2d& wanted);
+  std::optional<Eigen::Vector2d> Start(const Placement& placement);
+  std::optional<CheckedLeg> PlanLeg(const LegRequest& request);
+  std::optional<CheckedLeg> Repaired(LegRequest request, double target_reach);
+  Eigen::Vector2d Target(const Eigen::Vector2d& wanted, double reach);
   void Measure(const Eigen::Vector2d& position, double yaw, Check* check);
+  void MeasureTurn(const Eigen::Vector2d& position, Check* check);
+  double Pace(const Route& route) const;
+  double Badness(const Route& route);
 
   const Surface& surface_;
   const DriveOptions& options_;
@@ -160,16 +191,23 @@ void Planner::Measure(const Eigen::Vector2d& position, double yaw, Check* check)
   check->place = position;
 }
 
+void Planner::MeasureTurn(const Eigen::Vector2d& position, Check* check) {
+  for (int i = 0; i < kTurnYaws && check->stands; ++i) {
+    Measure(position, 2.0 * M_PI * i / kTurnYaws, check);
+  }
+}
+
 // A place near the wanted one where the rover can turn: level enough, no rocks round the wheels.
-Eigen::Vector2d Planner::Target(const Eigen::Vector2d& wanted) {
+Eigen::Vector2d Planner::Target(const Eigen::Vector2d& wanted, double reach) {
+  constexpr int kRings = 8;
   Eigen::Vector2d best = wanted;
   double least = 1e9;
-  for (int ring = 0; ring <= 8; ++ring) {
+  for (int ring = 0; ring <= kRings; ++ring) {
     const int spokes = ring == 0 ? 1 : 8;
     for (int spoke = 0; spoke < spokes; ++spoke) {
       const double angle = 2.0 * M_PI * spoke / spokes;
       const Eigen::Vector2d place =
-          wanted + 0.3 * ring * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+          wanted + reach * ring / kRings * Eigen::Vector2d(std::cos(angle), std::sin(angle));
       if (map_.Steepness(place) > 0.85) continue;
       const int hits = map_.TurnHits(place);
       const double cost = 2.0 * hits + 0.3 * ring;
@@ -182,10 +220,16 @@ Eigen::Vector2d Planner::Target(const Eigen::Vector2d& wanted) {
   return best;
 }
 
-std::optional<std::vector<Eigen::Vector2d>> Planner::PlanLeg(LegRequest request) {
-  const Eigen::Vector2d wanted = request.nominal.back();
+// Searches, checks what was found, closes the places where the check fails, and searches again.
+std::optional<CheckedLeg> Planner::Repaired(LegRequest request, double target_reach) {
+  const std::vector<Eigen::Vector2d> nominal = request.nominal;
   for (int repair = 0; repair <= kRepairs; ++repair) {
-    request.nominal.back() = Target(wanted);
+    // The whole leg leads to where its end was moved.
+    const Eigen::Vector2d moved = Target(nominal.back(), target_reach) - nominal.back();
+    for (size_t i = 0; i < nominal.size(); ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(nominal.size() - 1);
+      request.nominal[i] = nominal[i] + share * share * moved;
+    }
     auto points = FindLeg(request, &map_);
     if (!points) return std::nullopt;
     const LegCurve curve(*points);
@@ -194,69 +238,141 @@ std::optional<std::vector<Eigen::Vector2d>> Planner::PlanLeg(LegRequest request)
       const LegCurve::Sample sample = curve.At(s);
       Measure(sample.position, sample.yaw, &check);
     }
-    // Turns on the spot at the end.
-    for (int i = 0; i < 8 && check.stands; ++i) {
-      Measure(points->back(), 0.25 * M_PI * i, &check);
-    }
-    if (check.stands && check.steepest <= allowed()) return points;
+    MeasureTurn(points->back(), &check);
+    if (check.stands && check.steepest <= allowed()) return CheckedLeg{*points, check.steepest};
     if ((check.place - request.start).norm() < 1.0) return std::nullopt;
     map_.Block(check.place, 0.5);
   }
   return std::nullopt;
 }
 
+std::optional<CheckedLeg> Planner::PlanLeg(const LegRequest& request) {
+  for (int round = 0; round < kWidenings; ++round) {
+    LegRequest wider = request;
+    if (request.corridor >= kCorridor) wider.corridor *= 1.0 + 0.5 * round;
+    auto leg = Repaired(wider, kTargetReach * (1 + round));
+    if (leg) return leg;
+  }
+  return std::nullopt;
+}
+
+std::optional<Eigen::Vector2d> Planner::Start(const Placement& placement) {
+  const Eigen::Vector2d wanted = placement(nominal_.front().from);
+  for (int repair = 0; repair <= kRepairs; ++repair) {
+    const Eigen::Vector2d place = Target(wanted, kTargetReach);
+    Check check;
+    MeasureTurn(place, &check);
+    if (check.stands && check.steepest <= allowed()) return place;
+    map_.Block(place, 0.5);
+  }
+  return std::nullopt;
+}
+
 std::optional<Route> Planner::Plan(const Placement& placement) {
-  std::vector<std::vector<Eigen::Vector2d>> tracks;
+  std::vector<CheckedLeg> found;
   Route route;
-  Eigen::Vector2d place = Target(placement(nominal_.front().from));
+  const std::optional<Eigen::Vector2d> start = Start(placement);
+  if (!start) return std::nullopt;
+  Eigen::Vector2d place = *start;
   double yaw = 0.0;
-  for (size_t i = 0; i < nominal_.size(); ++i) {
-    const NominalLeg& leg = nominal_[i];
+  for (const NominalLeg& leg : nominal_) {
     LegRequest request;
     request.start = place;
     request.arrival_yaw = yaw;
     request.curvature = options_.curvature;
-    request.corridor = kCorridor;
     if (leg.retraces >= 0) {
-      request.nominal = tracks[static_cast<size_t>(leg.retraces)];
+      request.nominal = found[static_cast<size_t>(leg.retraces)].points;
       if (leg.reversed) std::reverse(request.nominal.begin(), request.nominal.end());
       request.corridor = kRetraceCorridor + (place - request.nominal.front()).norm();
     } else {
-      for (const Eigen::Vector2d& point : leg.Points(kNominalStep)) {
-        request.nominal.push_back(placement(point));
-      }
+      request.nominal = Led(leg.Points(kNominalStep), placement, place);
+      request.corridor = kCorridor;
     }
     const Eigen::Vector2d first =
         request.nominal[std::min<size_t>(4, request.nominal.size() - 1)] - request.nominal[0];
     const double heading = std::atan2(first.y(), first.x());
-    request.turn = std::remainder(heading - yaw, 2.0 * M_PI);
-    if (i == 0) request.turn = 0.0;
-    auto points = PlanLeg(request);
-    if (!points) return std::nullopt;
-    route.legs.emplace_back(*points);
-    place = points->back();
+    request.turn = found.empty() ? 0.0 : std::remainder(heading - yaw, 2.0 * M_PI);
+    auto checked = PlanLeg(request);
+    if (!checked) return std::nullopt;
+    route.steepest = std::max(route.steepest, checked->steepest);
+    route.legs.emplace_back(checked->points);
+    place = checked->points.back();
     yaw = route.legs.back().At(route.legs.back().length()).yaw;
-    tracks.push_back(std::move(*points));
+    found.push_back(*std::move(checked));
   }
-  for (const LegCurve& leg : route.legs) {
-    Check check;
-    for (double s = 0.0; s < leg.length(); s += kCheckStep) {
-      Measure(leg.At(s).position, leg.At(s).yaw, &check);
-    }
-    route.steepest = std::max(route.steepest, check.steepest);
-  }
+  route.badness = Badness(route);
   return route;
+}
+
+// The mean speed up to the end of each leg but the first, relative to the nominal route's; the
+// lowest. Turns that are wider than planned cost it.
+double Planner::Pace(const Route& route) const {
+  double pace = 1.0;
+  double yaw = 0.0;
+  double nominal_yaw = 0.0;
+  double length = 0.0;
+  double nominal_length = 0.0;
+  double time = options_.rest;
+  double nominal_time = options_.rest;
+  for (size_t i = 0; i < route.legs.size(); ++i) {
+    const LegCurve& leg = route.legs[i];
+    const NominalLeg& nominal = nominal_[i];
+    const Eigen::Vector2d chord = nominal.to - nominal.from;
+    const double chord_yaw = std::atan2(chord.y(), chord.x());
+    const auto turn = [&](double from, double to) {
+      return TurnDuration(options_, std::remainder(to - from, 2.0 * M_PI)) + 2.0 * options_.stop;
+    };
+    time += turn(yaw, leg.At(0.0).yaw) + LegDuration(options_, leg.length());
+    nominal_time +=
+        turn(nominal_yaw, chord_yaw - 0.5 * nominal.bend) + LegDuration(options_, chord.norm());
+    length += leg.length();
+    nominal_length += chord.norm();
+    if (i > 0) pace = std::min(pace, (length / time) / (nominal_length / nominal_time));
+    yaw = leg.At(leg.length()).yaw;
+    nominal_yaw = chord_yaw + 0.5 * nominal.bend;
+  }
+  return pace;
+}
+
+// In units of a degree of slope that is missing: 0 for a route that has all that is wanted.
+double Planner::Badness(const Route& route) {
+  double length = 0.0;
+  double detours = 0.0;
+  std::vector<PlanarPose> poses;
+  for (size_t i = 0; i < route.legs.size(); ++i) {
+    const LegCurve& leg = route.legs[i];
+    const double nominal = (nominal_[i].to - nominal_[i].from).norm();
+    length += leg.length();
+    detours += std::max(0.0, leg.length() / nominal - kMostDetour);
+    for (double s = 0.0; s < leg.length(); s += 0.25) {
+      const LegCurve::Sample sample = leg.At(s);
+      poses.push_back({sample.position, sample.yaw, 0.0});
+    }
+  }
+  const std::vector<Revisit> revisits = FindRevisits(poses, 1.0);
+  const auto kept = std::count_if(revisits.begin(), revisits.end(), [](const Revisit& revisit) {
+    return revisit.length > kRevisitLength + kRevisitReserve;
+  });
+  const auto wanted = std::count_if(nominal_.begin(), nominal_.end(),
+                                    [](const NominalLeg& leg) { return leg.retraces >= 0; });
+  const auto cleared = static_cast<double>(Cleared(route).size());
+  return std::max(0.0, options_.wanted_slope_deg - route.steepest / kDegree) +
+         200.0 * std::max(0.0, kLeastPace - Pace(route)) + 10.0 * detours +
+         5.0 * static_cast<double>(std::max<int64_t>(0, wanted - kept)) +
+         0.3 * std::max(0.0, std::floor(cleared - kMostCleared * length));
 }
 
 Route Planner::Find() {
   std::optional<Route> best;
   int tries = 0;
+  int routes = 0;
   for (const Placement& placement : Placements()) {
-    if (tries++ == kTries) break;
+    if (tries++ == kTries || routes == kRoutes) break;
     std::optional<Route> route = Plan(placement);
     if (!route) continue;
-    if (!best || route->steepest > best->steepest) best = std::move(route);
-    if (best->steepest >= options_.wanted_slope_deg * kDegree) break;
+    ++routes;
+    if (!best || route->badness < best->badness) best = std::move(route);
+    if (best->badness <= kGoodEnough) break;
   }
   if (best) return *best;
   throw InputError(
@@ -309,51 +425,6 @@ std::vector<Eigen::Vector2d> Planner::Cleared(const Route& route) {
 }
 
 }  // namespace
-
-std::vector<Revisit> FindRevisits(Span<const PlanarPose> path, double interval) {
-  // Places about 0.5 m apart, with the way driven until each.
-  struct Place {
-    size_t index;
-    double driven;
-  };
-  std::vector<Place> places;
-  double driven = 0.0;
-  for (size_t i = 0; i < path.size(); ++i) {
-    if (i > 0) driven += (path[i].position - path[i - 1].position).norm();
-    if (places.empty() || driven - places.back().driven >= 0.5) places.push_back({i, driven});
-  }
-  std::vector<Revisit> revisits;
-  std::optional<Revisit> open;
-  const auto close = [&] {
-    if (open && open->length >= kRevisitLength) revisits.push_back(*open);
-    open.reset();
-  };
-  double open_from = 0.0;
-  for (const Place& place : places) {
-    const PlanarPose& pose = path[place.index];
-    double nearest = kRevisitReach;
-    double facing = 0.0;
-    for (const Place& old : places) {
-      if (place.driven - old.driven < kRevisitGap) break;
-      const double distance = (path[old.index].position - pose.position).norm();
-      if (distance >= nearest) continue;
-      nearest = distance;
-      facing = std::cos(path[old.index].yaw - pose.yaw);
-    }
-    const bool near = nearest < kRevisitReach && std::abs(facing) > 0.5;
-    if (!near || (open && open->same_direction != (facing > 0.0))) close();
-    if (!near) continue;
-    const double time = static_cast<double>(place.index) * interval;
-    if (!open) {
-      open = Revisit{time, time, 0.0, facing > 0.0};
-      open_from = place.driven;
-    }
-    open->end = time;
-    open->length = place.driven - open_from;
-  }
-  close();
-  return revisits;
-}
 
 Drive PlanDrive(const Surface& surface, const DriveOptions& options, const RoverOptions& rover,
                 uint64_t seed, double duration, double interval) {

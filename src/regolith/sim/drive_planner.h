@@ -3,9 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
-#include "regolith/core/span.h"
 #include "regolith/sim/drive.h"
 #include "regolith/sim/scenario_options.h"
 #include "regolith/terrain/surface.h"
@@ -18,8 +16,5 @@ namespace regolith {
 /// InputError, saying what to do, where no route can be found.
 Drive PlanDrive(const Surface& surface, const DriveOptions& options, const RoverOptions& rover,
                 uint64_t seed, double duration, double interval);
-
-/// Where a path comes back to its own track.
-std::vector<Revisit> FindRevisits(Span<const PlanarPose> path, double interval);
 
 }  // namespace regolith

@@ -81,6 +81,9 @@ TerrainOptions Mars() {
   terrain.relief.slope_deg = 5.0;
   terrain.relief.statistic = SlopeStatistic::kRms;
   terrain.craters.density = 0.016;
+  terrain.craters.max_diameter = 20.0;
+  terrain.rocks.law = RockLaw::kGolombek;
+  terrain.rocks.clustering = 0.0;
   return terrain;
 }
 
@@ -90,20 +93,54 @@ void ExpectBothRevisits(const Drive& drive) {
   EXPECT_FALSE(drive.revisits[1].same_direction);
 }
 
+constexpr uint64_t kSeeds = 5;
+
 TEST(PlanDrive, LunarLoopsAreLongRevisitTwiceAndStayBelowTheSteepest) {
-  const Drive drive = PlanOnGenerated(TerrainOptions{}, LunarLoops(), 1, 700.0);
-  EXPECT_GT(drive.length, 300.0);
-  ExpectBothRevisits(drive);
-  EXPECT_LT(drive.steepest, 15.0 * kDegree);
-  EXPECT_GT(drive.steepest, 10.0 * kDegree);
-  EXPECT_EQ(drive.path.front().yaw, 0.0);
+  for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Drive drive = PlanOnGenerated(TerrainOptions{}, LunarLoops(), seed, 700.0);
+    EXPECT_GT(drive.length, 300.0) << seed;
+    ExpectBothRevisits(drive);
+    EXPECT_LT(drive.steepest, 15.0 * kDegree) << seed;
+    EXPECT_GT(drive.steepest, 10.0 * kDegree) << seed;
+    EXPECT_LE(drive.cleared.size(), 5U) << seed;
+    EXPECT_EQ(drive.path.front().yaw, 0.0);
+  }
 }
 
 TEST(PlanDrive, MarsLoopsAreLongAndRevisitTwice) {
-  const Drive drive = PlanOnGenerated(Mars(), MarsLoops(), 1, 300.0);
-  EXPECT_GT(drive.length, 150.0);
-  ExpectBothRevisits(drive);
-  EXPECT_LT(drive.steepest, 15.0 * kDegree);
+  for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Drive drive = PlanOnGenerated(Mars(), MarsLoops(), seed, 300.0);
+    EXPECT_GT(drive.length, 150.0) << seed;
+    ExpectBothRevisits(drive);
+    EXPECT_LT(drive.steepest, 15.0 * kDegree) << seed;
+    EXPECT_LE(drive.cleared.size(), 10U) << seed;
+    for (const PlanarPose& pose : drive.path) ASSERT_LT(pose.speed, 0.77);
+  }
+}
+
+TEST(PlanDrive, WanderingCoversItsLengthInTime) {
+  DriveOptions mars;
+  mars.speed = 0.65;
+  mars.length = 100.0;
+  for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    EXPECT_GT(PlanOnGenerated(TerrainOptions{}, DriveOptions{}, seed, 40.0).length, 17.0) << seed;
+    EXPECT_GT(PlanOnGenerated(TerrainOptions{}, DriveOptions{}, seed, 120.0).length, 45.0) << seed;
+    EXPECT_GT(PlanOnGenerated(Mars(), mars, seed, 40.0).length, 20.0) << seed;
+  }
+}
+
+TEST(PlanDrive, CurvesAreNoSharperThanAllowed) {
+  const Rocky surface(0.5);
+  const DriveOptions options = MarsLoops();
+  const Drive drive = PlanDrive(surface, options, RoverOptions{}, 1, 300.0, kMotionInterval);
+  double sharpest = 0.0;
+  for (size_t i = 1; i < drive.path.size(); ++i) {
+    const double step = (drive.path[i].position - drive.path[i - 1].position).norm();
+    if (step < 0.02) continue;
+    sharpest = std::max(sharpest, std::abs(drive.path[i].yaw - drive.path[i - 1].yaw) / step);
+  }
+  EXPECT_LT(sharpest, 1.05 * options.curvature);
+  EXPECT_GT(sharpest, 0.5 * options.curvature);
 }
 
 TEST(PlanDrive, ALongerDriveBeginsAsTheShorterOne) {

@@ -15,10 +15,20 @@ constexpr double kDegree = M_PI / 180.0;
 constexpr double kTableStep = 0.02;    // s
 constexpr double kShortestTurn = 1.0;  // s
 constexpr double kLeastTurn = 1e-3;    // rad; less is no turn
+constexpr double kTurnRamp = 0.35;     // share of a point turn until its peak rate, and after it
 
 double SmoothStep(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
+}
+
+// The part of a point turn that is done when `share` of its time is over: the rate rises and falls
+// as raised cosines, and stays at its peak between them.
+double TurnProgress(double share) {
+  if (share > 0.5) return 1.0 - TurnProgress(1.0 - share);
+  const double ramp = std::min(share, kTurnRamp);
+  const double rising = 0.5 * (ramp - kTurnRamp / M_PI * std::sin(M_PI * ramp / kTurnRamp));
+  return (rising + share - ramp) / (1.0 - kTurnRamp);
 }
 
 // Speed over one leg: a ramp, gentle waves about the mean, a ramp.
@@ -99,21 +109,28 @@ class Timeline {
   std::vector<PlanarPose> poses_;
 };
 
-// Turns on the spot by `angle`: a raised cosine, whose peak is twice its mean.
 void AddTurn(double angle, const DriveOptions& options, PlanarPose* rest, Timeline* timeline) {
-  if (std::abs(angle) < kLeastTurn) return;
-  const double duration =
-      std::max(2.0 * std::abs(angle) / (options.turn_rate_deg * kDegree), kShortestTurn);
+  const double duration = TurnDuration(options, angle);
+  if (duration == 0.0) return;
   timeline->Add(duration, [&](double t) {
     PlanarPose pose = *rest;
-    const double share = t / duration;
-    pose.yaw += angle * (share - std::sin(2.0 * M_PI * share) / (2.0 * M_PI));
+    pose.yaw += angle * TurnProgress(t / duration);
     return pose;
   });
   rest->yaw += angle;
 }
 
 }  // namespace
+
+double TurnDuration(const DriveOptions& options, double angle) {
+  if (std::abs(angle) < kLeastTurn) return 0.0;
+  const double peak = options.turn_rate_deg * kDegree;
+  return std::max(std::abs(angle) / ((1.0 - kTurnRamp) * peak), kShortestTurn);
+}
+
+double LegDuration(const DriveOptions& options, double length) {
+  return length / (kMeanOfNominal * options.speed) + kRamp;
+}
 
 std::vector<PlanarPose> TimeDrive(const DriveOptions& options, uint64_t seed,
                                   const std::vector<LegCurve>& legs, double duration,

@@ -17,4 +17,10 @@ std::vector<PlanarPose> TimeDrive(const DriveOptions& options, uint64_t seed,
                                   const std::vector<LegCurve>& legs, double duration,
                                   double interval);
 
+/// s that a point turn by `angle` rad takes; 0 where that is too little to be one.
+double TurnDuration(const DriveOptions& options, double angle);
+
+/// s that a leg of `length` m takes from rest to rest, waves of the speed left out.
+double LegDuration(const DriveOptions& options, double length);
+
 }  // namespace regolith

@@ -16,8 +16,8 @@ namespace regolith {
 /// What a perfect IMU measures: body rate and specific force Rᵀ (a - g), gravity (m/s²) along -z.
 ImuSample ExactImu(const MotionState& motion, double gravity);
 
-/// An IMU with white noise and biases that walk (Crassidis 2006: densities over the square root of
-/// the sampling interval).
+/// An IMU whose axes have scale errors and are not quite square to each other, with white noise and
+/// biases that walk (Crassidis 2006: densities over the square root of the sampling interval).
 class ImuSimulator {
  public:
   ImuSimulator(const ImuOptions& options, double gravity, uint64_t seed);
@@ -26,12 +26,19 @@ class ImuSimulator {
   /// the caller.
   ImuSample Measure(const MotionState& motion);
 
+  /// What a sensor without bias and noise makes of a true vector (frame `imu`): 1 + scale errors on
+  /// the diagonal, beside it the angles (rad) of the sensor's axes towards the others.
+  const Eigen::Matrix3d& gyro_axes() const { return gyro_axes_; }
+  const Eigen::Matrix3d& accelerometer_axes() const { return accelerometer_axes_; }
+
  private:
   Eigen::Vector3d Gaussian(double sigma);
 
   ImuOptions options_;
   double gravity_;
   Random random_;
+  Eigen::Matrix3d gyro_axes_;
+  Eigen::Matrix3d accelerometer_axes_;
   Eigen::Vector3d gyro_bias_;
   Eigen::Vector3d accelerometer_bias_;
 };

@@ -21,9 +21,10 @@ constexpr double kHitCost = 8.0;        // m of way worth a rock under a wheel
 constexpr double kAwayCost = 0.05;      // share of the way, a squared metre away from the nominal
 constexpr double kSlopeCost = 1.0;      // share of the way, on the steepest ground
 constexpr double kBendCost = 0.15;      // share of the way, in the sharpest curve
-constexpr double kTurnCost = 2.0;       // m, a radian between the wanted and the real point turn
+constexpr double kTurnCost = 3.5;       // m, a radian between the wanted and the real point turn
 constexpr double kWidestStart = 0.9;    // rad, either side of the nominal heading
 constexpr double kGreed = 1.3;          // weight of the distance left (weighted A*)
+constexpr double kAxleReach = 0.6;      // m, of the wheels' front and back from the base
 constexpr int kParametersPerStep = 10;  // of the table of arc lengths
 
 double Heading(const Eigen::Vector2d& vector) { return std::atan2(vector.y(), vector.x()); }
@@ -50,13 +51,11 @@ class Search {
       const Open open = queue_.top();
       queue_.pop();
       const Node node = nodes_[open.node];
+      if (node.is_end) return Trace(open.node);
       const size_t state = State(node);
       if (closed_[state]) continue;
       closed_[state] = true;
-      if ((node.position - request_.nominal.back()).norm() < kGoalRadius &&
-          map_.TurnHits(node.position) == best_turn_hits_) {
-        return Trace(open.node);
-      }
+      if ((node.position - request_.nominal.back()).norm() < kGoalRadius) End(open.node, node);
       Expand(open.node, node);
     }
     return std::nullopt;
@@ -68,7 +67,8 @@ class Search {
     double yaw;
     double cost;
     int parent;
-    int curvature;  // index, -1 at the start
+    int curvature;        // index, -1 at the start
+    bool is_end = false;  // a copy of its parent: the leg may end here
   };
   struct Open {
     double total;
@@ -118,15 +118,34 @@ class Search {
 
   void AddStarts() {
     const std::vector<Eigen::Vector2d>& nominal = request_.nominal;
-    best_turn_hits_ = std::max(0, map_.TurnHits(nominal.back()));
     const double ahead = Heading(nominal[std::min<size_t>(6, nominal.size() - 1)] - request_.start);
     const double step = request_.curvature * kLegStep;
     const int reach = static_cast<int>(kWidestStart / step);
     for (int i = -reach; i <= reach; ++i) {
       const double yaw = ahead + i * step;
       const double turn = std::remainder(yaw - request_.arrival_yaw, 2.0 * M_PI);
-      Push({request_.start, yaw, kTurnCost * std::abs(turn - request_.turn), -1, -1});
+      const int hits = AxleHits(request_.start, yaw, -1.0);
+      Push({request_.start, yaw, kTurnCost * std::abs(turn - request_.turn) + kHitCost * hits, -1,
+            -1});
     }
+  }
+
+  // Rocks under the wheels behind (side -1) a first or before (side 1) a last place.
+  int AxleHits(const Eigen::Vector2d& place, double yaw, double side) {
+    const Eigen::Vector2d middle =
+        place + side * 0.5 * kAxleReach * Eigen::Vector2d(std::cos(yaw), std::sin(yaw));
+    return std::max(0, map_.TrackHits(middle, yaw, kAxleReach));
+  }
+
+  // The rover may stop at the node and turn there.
+  void End(size_t index, const Node& node) {
+    const int turn_hits = map_.TurnHits(node.position);
+    if (turn_hits < 0) return;
+    Node end = node;
+    end.cost += kHitCost * (turn_hits + AxleHits(node.position, node.yaw, 1.0));
+    end.parent = static_cast<int>(index);
+    end.is_end = true;
+    Push(end);
   }
 
   void Expand(size_t index, const Node& node) {
@@ -153,7 +172,7 @@ class Search {
 
   std::vector<Eigen::Vector2d> Trace(size_t last) const {
     std::vector<Eigen::Vector2d> points;
-    for (int i = static_cast<int>(last); i >= 0; i = nodes_[static_cast<size_t>(i)].parent) {
+    for (int i = nodes_[last].parent; i >= 0; i = nodes_[static_cast<size_t>(i)].parent) {
       points.push_back(nodes_[static_cast<size_t>(i)].position);
     }
     std::reverse(points.begin(), points.end());
@@ -166,7 +185,6 @@ class Search {
   int columns_ = 0;
   int rows_ = 0;
   int headings_ = 0;
-  int best_turn_hits_ = 0;
   std::vector<float> place_cost_;  // negative: not known yet
   std::vector<bool> closed_;
   std::vector<Node> nodes_;

@@ -13,8 +13,8 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kRoom = 25.0;  // m around a route, to place it in
 // Shares of a route of loops: the first lap, the second; the rest leads away.
-constexpr double kFirstLap = 0.32;
-constexpr double kSecondLap = 0.25;
+constexpr double kFirstLap = 0.28;
+constexpr double kSecondLap = 0.21;
 constexpr double kLeaving = 45.0 * kDegree;  // by which the way out turns off the old track
 
 Eigen::Vector2d Direction(double yaw) { return {std::cos(yaw), std::sin(yaw)}; }

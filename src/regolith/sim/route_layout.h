@@ -37,8 +37,8 @@ Eigen::AlignedBox2d DriveBox(const DriveOptions& options, uint64_t seed);
 
 /// Shares of the nominal speed: what legs run at on average, and how far they vary around it. Ramps
 /// and stops cost time, so that the mean over a drive is about the nominal speed.
-inline constexpr double kMeanOfNominal = 1.15;
-inline constexpr double kSpeedWaves = 0.08;
+inline constexpr double kMeanOfNominal = 1.14;
+inline constexpr double kSpeedWaves = 0.04;
 /// From rest to speed, s.
 inline constexpr double kRamp = 1.0;
 

@@ -23,9 +23,9 @@ struct DriveOptions {
   double length = 60.0;           ///< m, of the route (wander, loops); at its end the rover rests
   std::vector<double> waypoints;  ///< m, x y of each
   std::string waypoint_frame = "start";  ///< "start": from the first pose on; "map": the terrain's
-  double speed = 0.5;                    ///< m/s, nominal; legs run up to 1.23 times as fast
+  double speed = 0.5;                    ///< m/s, nominal; legs run up to 1.18 times as fast
   double rest = 3.0;                     ///< s at rest before the first leg
-  double leg_duration = 16.0;            ///< s of driving between two stops
+  double leg_duration = 18.0;            ///< s of driving between two stops
   double stop = 0.4;                     ///< s at rest before and after a point turn
   double turn_deg = 30.0;                ///< angle of a point turn where the way is free, degrees
   double turn_rate_deg = 20.0;           ///< peak rate of a point turn, degrees/s

@@ -17,11 +17,12 @@ constexpr double kTile = 4.0;            // m
 constexpr int kEnvelopeSteps = 2;        // on either side of a wheel's middle
 constexpr double kEnvelopeReach = 0.7;   // of the radius: steeper contact means an obstacle
 
-// Height of a rock above the ground at `distance` m from its centre: a half sphere.
-double RockTop(const Rock& rock, double distance) {
-  const double radius = 0.5 * rock.diameter;
-  return distance < radius ? std::sqrt(radius * radius - distance * distance) : -1.0;
-}
+constexpr int kRockStepsAlong = 3;  // on either side of a rock's middle
+constexpr int kRockStepsAside = 2;  // likewise, over the width of the wheel
+constexpr double kBelowAll = -1e9;  // m
+
+// How far a wheel of this radius has come down at `u` m from its middle.
+double Drop(double radius, double u) { return radius - std::sqrt(radius * radius - u * u); }
 
 }  // namespace
 
@@ -40,7 +41,8 @@ const std::vector<Rock>& Suspension::RocksAround(const Eigen::Vector2d& place) {
   if (fresh) {
     const Eigen::Vector2d low(kTile * static_cast<double>(column),
                               kTile * static_cast<double>(row));
-    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(kObstacle + kHalfWheelWidth);
+    const Eigen::Vector2d reach =
+        Eigen::Vector2d::Constant(options_.wheel_radius + tops_.reach() * kObstacle);
     const Eigen::Vector2d high = low + Eigen::Vector2d::Constant(kTile);
     for (const Rock& rock : surface_.Rocks({low - reach, high + reach}, kSmallestBump)) {
       if (rock.diameter < kObstacle) entry->second.push_back(rock);
@@ -49,29 +51,46 @@ const std::vector<Rock>& Suspension::RocksAround(const Eigen::Vector2d& place) {
   return entry->second;
 }
 
+double Suspension::ContactWithRock(const Rock& rock, const Eigen::Vector2d& wheel,
+                                   const Eigen::Vector2d& ahead) const {
+  const double radius = options_.wheel_radius;
+  const double reach = tops_.reach() * rock.diameter;
+  const Eigen::Vector2d left(-ahead.y(), ahead.x());
+  const Eigen::Vector2d offset = rock.centre - wheel;
+  const double along = offset.dot(ahead);
+  const double aside = offset.dot(left);
+  // The part of the wheel's width that is over the rock.
+  const double right_edge = std::max(aside - reach, -kHalfWheelWidth);
+  const double left_edge = std::min(aside + reach, kHalfWheelWidth);
+  if (right_edge >= left_edge) return kBelowAll;
+  double highest = kBelowAll;
+  for (int i = -kRockStepsAlong; i <= kRockStepsAlong; ++i) {
+    const double u = along + reach * i / (kRockStepsAlong + 1);
+    if (std::abs(u) >= radius) continue;
+    for (int j = -kRockStepsAside; j <= kRockStepsAside; ++j) {
+      const double share = 0.5 + 0.5 * j / (kRockStepsAside + 0.5);
+      const double v = right_edge + share * (left_edge - right_edge);
+      const Eigen::Vector2d place = wheel + u * ahead + v * left;
+      highest = std::max(highest, tops_.Top(rock, place.x(), place.y()) - Drop(radius, u));
+    }
+  }
+  return highest;
+}
+
 // The hub of a wheel of radius r above h(u) is at max over u of h(u) + sqrt(r² - u²).
 double Suspension::Contact(const Eigen::Vector2d& wheel, const Eigen::Vector2d& ahead) {
   const double radius = options_.wheel_radius;
-  const auto drop = [radius](double u) { return radius - std::sqrt(radius * radius - u * u); };
-  double highest = -1e9;
+  double highest = kBelowAll;
   for (int i = -kEnvelopeSteps; i <= kEnvelopeSteps; ++i) {
     const double u = kEnvelopeReach * radius * i / kEnvelopeSteps;
     const Eigen::Vector2d place = wheel + u * ahead;
     const double ground = surface_.Height(place.x(), place.y(), kWheelFootprint);
-    highest = std::max(highest, ground - drop(u));
+    highest = std::max(highest, ground - Drop(radius, u));
   }
+  const double far = std::hypot(radius, kHalfWheelWidth) + tops_.reach() * kObstacle;
   for (const Rock& rock : RocksAround(wheel)) {
-    const Eigen::Vector2d offset = rock.centre - wheel;
-    if (offset.squaredNorm() > 0.09) continue;
-    const double along = offset.dot(ahead);
-    const double aside = std::abs(ahead.x() * offset.y() - ahead.y() * offset.x());
-    const double beside = std::max(0.0, aside - kHalfWheelWidth);
-    for (int i = -kEnvelopeSteps; i <= kEnvelopeSteps; ++i) {
-      const double u = along + 0.2 * rock.diameter * i;
-      if (std::abs(u) >= radius) continue;
-      const double top = RockTop(rock, std::hypot(u - along, beside));
-      if (top > 0.0) highest = std::max(highest, rock.ground + top - drop(u));
-    }
+    if ((rock.centre - wheel).squaredNorm() > far * far) continue;
+    highest = std::max(highest, ContactWithRock(rock, wheel, ahead));
   }
   return highest;
 }
@@ -110,12 +129,6 @@ double Suspension::SlopeAhead(const Eigen::Vector2d& position, double yaw) const
   const Eigen::Vector2d back = position - half;
   return std::abs(std::atan(surface_.Height(front.x(), front.y(), kWheelFootprint) -
                             surface_.Height(back.x(), back.y(), kWheelFootprint)));
-}
-
-SE3 RestOnWheels(const Surface& surface, const RoverOptions& rover, const PlanarPose& pose) {
-  const Stance stance = Suspension(surface, rover).At(pose.position, pose.yaw);
-  return {FromYawPitchRoll(pose.yaw, stance.pitch, stance.roll),
-          Eigen::Vector3d(pose.position.x(), pose.position.y(), stance.height)};
 }
 
 }  // namespace regolith

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
-#include "regolith/geometry/se3.h"
-#include "regolith/sim/drive.h"
 #include "regolith/sim/scenario_options.h"
+#include "regolith/terrain/rock_shapes.h"
 #include "regolith/terrain/surface.h"
 
 namespace regolith {
@@ -36,7 +36,7 @@ Eigen::Quaterniond FromYawPitchRoll(double yaw, double pitch, double roll);
 class Suspension {
  public:
   Suspension(const Surface& surface, const RoverOptions& options)
-      : surface_(surface), options_(options) {}
+      : surface_(surface), options_(options), tops_(surface.RockShapes()) {}
 
   Stance At(const Eigen::Vector2d& position, double yaw);
 
@@ -52,14 +52,15 @@ class Suspension {
   Side Rest(const Eigen::Vector2d& middle, const Eigen::Vector2d& ahead);
   /// Height (m) of a wheel's lowest point when it touches.
   double Contact(const Eigen::Vector2d& wheel, const Eigen::Vector2d& ahead);
+  /// Height (m) likewise, from one rock; below all ground where the wheel passes beside it.
+  double ContactWithRock(const Rock& rock, const Eigen::Vector2d& wheel,
+                         const Eigen::Vector2d& ahead) const;
   const std::vector<Rock>& RocksAround(const Eigen::Vector2d& place);
 
   const Surface& surface_;
   RoverOptions options_;
+  RockTops tops_;
   std::unordered_map<int64_t, std::vector<Rock>> rocks_;  ///< by tile, those in reach of it
 };
-
-/// The pose of `base` (m, rad) that rests on its wheels at a place of the plane, frame `map`.
-SE3 RestOnWheels(const Surface& surface, const RoverOptions& rover, const PlanarPose& pose);
 
 }  // namespace regolith

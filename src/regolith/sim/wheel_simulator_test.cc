@@ -47,6 +47,25 @@ TEST(WheelSimulator, ReportsMoreThanItDrivesUphill) {
   EXPECT_NEAR(odometry.linear_velocity_base.x(), 0.5 / 0.9, 1e-9);
 }
 
+TEST(WheelSimulator, SlipsByTheTableAtEachOfItsSlopes) {
+  const double slips[] = {0.025, 0.05, 0.10, 0.35};
+  for (int i = 0; i < 4; ++i) {
+    WheelSimulator wheels(Exact(), 1);
+    const double speed =
+        wheels.Measure(Driving(0.5, 5.0 * i * kDegree, 0.0)).linear_velocity_base.x();
+    EXPECT_NEAR(1.0 - 0.5 / speed, slips[i], 1e-9) << i;
+  }
+}
+
+TEST(WheelSimulator, ItsRadiusIsOnePercentOff) {
+  WheelOptions options = Exact();
+  options.radius_error = 0.01;
+  options.slip = {0.0, 0.0, 0.0, 0.0};
+  WheelSimulator wheels(options, 1);
+  const double speed = wheels.Measure(Driving(0.5, 0.0, 0.0)).linear_velocity_base.x();
+  EXPECT_NEAR(std::abs(speed / 0.5 - 1.0), 0.01, 1e-9);
+}
+
 TEST(WheelSimulator, IsTenPercentOffInPointTurnsAndNotInStraightDriving) {
   WheelOptions options = Exact();
   options.turn_error = 0.10;
