@@ -88,7 +88,7 @@ void FillLightOnTile(benchmark::State& state) {
   World& world = TheWorld();
   const GroundTile tile(world.ground, {0.64, 0.0}, 0.005);
   for (auto _ : state)
-    benchmark::DoNotOptimize(CastFillLight(*world.scene, world.photometry, tile));
+    benchmark::DoNotOptimize(CastFillLight(*world.scene, world.photometry, true, tile));
 }
 BENCHMARK(FillLightOnTile)->Unit(benchmark::kMillisecond);
 

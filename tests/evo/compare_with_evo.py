@@ -114,7 +114,9 @@ def run_evo(folder, program, name, *arguments):
     command = [str(Path(sys.executable).parent / program), "tum"]
     command += [str(folder / "reference.tum"), str(folder / "estimate.tum")]
     command += ["--save_results", str(result), "--no_warnings", *arguments]
-    output = subprocess.run(command, capture_output=True, text=True, check=False)
+    # evo writes its settings into the home folder when it runs first, and two at once collide.
+    home = {**os.environ, "HOME": str(folder)}
+    output = subprocess.run(command, capture_output=True, text=True, check=False, env=home)
     if not result.exists():
         raise RuntimeError(f"{' '.join(command)}: {output.stdout[-500:]}{output.stderr[-500:]}")
     with zipfile.ZipFile(result) as archive:

@@ -44,7 +44,10 @@ ScenarioOptions ResolveScenario(const SimulateArguments& arguments) {
   ScenarioOptions options = LoadScenario(document);
   if (arguments.duration) options.duration = *arguments.duration;
   if (arguments.seed) options.seed = *arguments.seed;
-  if (arguments.quality == "draft") options.mesh.spacing = kDraftSpacing;
+  if (arguments.quality == "draft") {
+    options.mesh.spacing = kDraftSpacing;
+    options.mesh.interreflection = false;
+  }
   options.Check();
   return options;
 }
@@ -98,10 +101,15 @@ Recorded Record(Simulator& simulator, Span<const StampedPose> truth, BagWriter* 
   return recorded;
 }
 
-void WriteSurroundings(const std::string& out, Simulator& simulator,
+void WriteSurroundings(const SimulateArguments& arguments, Simulator& simulator,
                        const ScenarioOptions& options) {
+  const std::string& out = arguments.out;
   WriteFile(out + "/rig.yaml", WriteRig(simulator.rig()));
-  WriteFile(out + "/scenario.yaml", WriteScenario(options));
+  const std::string skipped =
+      arguments.quality == "draft"
+          ? "# Draft quality: ground meshed at 4 cm at best, shadows not filled by lit ground.\n"
+          : "";
+  WriteFile(out + "/scenario.yaml", skipped + WriteScenario(options));
   WriteHeights(out + "/terrain.tif", simulator.TerrainAroundPath());
   WritePng(out + "/preview.png", simulator.Preview());
 }
@@ -140,7 +148,7 @@ int Simulate(const SimulateArguments& arguments) {
   ThreadPool threads(arguments.threads);
   const auto simulator = MakeSimulator(arguments, options, &threads);
   PrepareOutputFolder(arguments.out, arguments.overwrite);
-  WriteSurroundings(arguments.out, *simulator, options);
+  WriteSurroundings(arguments, *simulator, options);
 
   const bool recorded = arguments.pairs_only || WriteRecording(arguments, *simulator);
   const bool paired =

@@ -220,6 +220,7 @@ template <typename Archive>
 void Fields(Archive& archive, MeshOptions& mesh) {
   archive("spacing", mesh.spacing);
   archive("reach", mesh.reach);
+  archive("interreflection", mesh.interreflection);
 }
 
 template <typename Archive>
@@ -239,7 +240,6 @@ void Fields(Archive& archive, ScenarioOptions& scenario) {
   archive("vibration", scenario.vibration);
   archive("wheels", scenario.wheels);
   archive("mesh", scenario.mesh);
-  archive("interreflection", scenario.interreflection);
 }
 
 ScenarioOptions LoadScenario(const YamlDocument& document) {

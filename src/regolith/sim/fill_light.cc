@@ -33,18 +33,23 @@ std::array<Eigen::Vector3f, kDirections> CosineDirections() {
   return directions;
 }
 
-float Arriving(const Scene& scene, const Photometry& photometry, const RayPacket& rays, int lane) {
+float Arriving(const Scene& scene, const Photometry& photometry, bool interreflection,
+               const RayPacket& rays, int lane) {
   const Eigen::Vector3f direction = rays.Direction(lane);
   if (rays.object[lane] == kNothing) return photometry.SkyWithoutSun(direction);
+  if (!interreflection) return 0.0F;
   if (scene.IsRock(rays.object[lane])) return kRockShare * photometry.LevelGround();
   const float width = kConeWidth * rays.distance[lane];
-  return photometry.Ground(scene.Look(rays, lane, width, width), -direction);
+  SurfacePoint point = scene.Look(rays, lane, width, width);
+  // One bounce: what fills that ground is being cast too, and the open sky stands for it.
+  point.fill = photometry.OpenSky();
+  return photometry.Ground(point, -direction);
 }
 
 }  // namespace
 
 std::vector<float> CastFillLight(const Scene& scene, const Photometry& photometry,
-                                 const GroundTile& tile) {
+                                 bool interreflection, const GroundTile& tile) {
   static const std::array<Eigen::Vector3f, kDirections> kRays = CosineDirections();
   constexpr float kFar = 1000.0F;  // m
   std::vector<float> fill;
@@ -60,7 +65,7 @@ std::vector<float> CastFillLight(const Scene& scene, const Photometry& photometr
         }
         scene.Intersect(&rays, false);
         for (int lane = 0; lane < kPacketSize; ++lane) {
-          sum += Arriving(scene, photometry, rays, lane);
+          sum += Arriving(scene, photometry, interreflection, rays, lane);
         }
       }
       fill.push_back(sum / kDirections);

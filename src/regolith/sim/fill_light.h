@@ -11,9 +11,9 @@ namespace regolith {
 
 class Scene;
 
-/// Light from the sky and, by one bounce, from sunlit ground and rocks around, at the fill posts of
-/// a tile (I/F of a white level surface): what fills shadows.
+/// Light from the sky and, with `interreflection` by one bounce, from ground and rocks around, at
+/// the fill posts of a tile (I/F of a white level surface): what fills shadows.
 std::vector<float> CastFillLight(const Scene& scene, const Photometry& photometry,
-                                 const GroundTile& tile);
+                                 bool interreflection, const GroundTile& tile);
 
 }  // namespace regolith

@@ -34,6 +34,9 @@ class Photometry {
   /// I/F of level ground in full sun, seen from above.
   float LevelGround() const { return level_ground_; }
 
+  /// What the sky alone sends down on level ground in the open, as a share of the sun's irradiance.
+  float OpenSky() const { return diffuse_; }
+
   /// Light of sky and of lit level ground around on a surface with `normal` that stands free.
   float FillOutside(const Eigen::Vector3f& normal) const;
 

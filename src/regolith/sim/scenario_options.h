@@ -141,7 +141,6 @@ struct ScenarioOptions {
   VibrationOptions vibration;
   WheelOptions wheels;
   MeshOptions mesh;
-  bool interreflection = true;  ///< shadows are filled by light from ground around
 
   /// Throws InputError that names the key, the value and what was expected.
   void Check() const;

@@ -113,6 +113,7 @@ class EmbreeScene : public Scene {
         rocks_(std::move(rocks)),
         shapes_(ground.surface().RockShapes()),
         photometry_(photometry),
+        interreflection_(options.interreflection),
         pool_(pool),
         // One thread builds a tree: it is the same tree each time.
         device_(rtcNewDevice("threads=1,set_affinity=0")) {
@@ -216,6 +217,7 @@ class EmbreeScene : public Scene {
   std::vector<Rock> rocks_;
   std::vector<RockShape> shapes_;
   const Photometry& photometry_;
+  bool interreflection_;
   ThreadPool* pool_;
   RTCDevice device_;
   RTCScene scene_ = nullptr;
@@ -320,10 +322,15 @@ void EmbreeScene::CastLight(const std::vector<Tile*>& tiles) {
       ground.SetSunlight(sunlit, photometry_.sun().direction);
     }
   });
+  std::vector<std::vector<float>> fills(tiles.size());
   pool_->ParallelFor(tiles.size(), 1, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
-      tiles[i]->ground->SetFill(CastFillLight(*this, photometry_, *tiles[i]->ground));
+      fills[i] = CastFillLight(*this, photometry_, interreflection_, *tiles[i]->ground);
     }
+  });
+  // Not before all are cast: tiles see each other.
+  pool_->ParallelFor(tiles.size(), 1, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) tiles[i]->ground->SetFill(fills[i]);
   });
 }
 

@@ -71,6 +71,7 @@ class SceneTest : public testing::Test {
 TEST(TileTree, CoversTheGroundOnceAndFinelyAlongThePath) {
   const std::vector<Eigen::Vector2d> path = {{0.0, 0.0}, {20.0, 0.0}, {40.0, 3.0}};
   MeshOptions options;
+  options.spacing = 0.005;
   options.reach = 200.0;
   const TileTree tree(options, path);
   const std::vector<TileKey> tiles = tree.Wanted({20.0, 0.0});
