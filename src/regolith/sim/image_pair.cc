@@ -4,67 +4,96 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace regolith {
 namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-// The second camera's ray must end as near to the place as the pixel is long there, and not nearer
-// than interpolated distances are sure.
-constexpr float kSure = 0.02F;
+constexpr float kFarAway = 2e4F;  // m
+// The second camera's ray ends before the place by this share of its length, so that rounding does
+// not hide the place behind itself.
+constexpr float kSure = 0.002F;
+
+class FlowFinder {
+ public:
+  FlowFinder(const Scene& scene, const Renderer& renderer, const CameraIntrinsics& intrinsics,
+             const SE3& T_world_first, const SE3& T_world_second)
+      : scene_(scene),
+        renderer_(renderer),
+        model_(CameraModel::Create(intrinsics)),
+        width_(intrinsics.width),
+        height_(intrinsics.height),
+        R_world_first_(T_world_first.rotation.toRotationMatrix().cast<float>()),
+        first_(T_world_first.translation.cast<float>()),
+        second_(T_world_second.translation.cast<float>()),
+        T_second_world_(T_world_second.Inverse()) {}
+
+  // The pixels from `start` on that a packet holds: rays of the first camera, then those of the
+  // second that should end at the same places.
+  void Find(int start, float* flow_x, float* flow_y) const {
+    RayPacket rays;
+    for (int lane = 0; lane < kPacketSize; ++lane) {
+      rays.Off(lane);
+      const int pixel = start + lane;
+      if (pixel >= width_ * height_) continue;
+      rays.Set(lane, first_, R_world_first_ * renderer_.bearing(pixel % width_, pixel / width_),
+               kFarAway);
+    }
+    scene_.Intersect(&rays, true);
+    RayPacket back;
+    Eigen::Vector2d pixels[kPacketSize];
+    for (int lane = 0; lane < kPacketSize; ++lane) {
+      back.Off(lane);
+      if (rays.limit[lane] < 0.0F || rays.object[lane] == kNothing) continue;
+      const Eigen::Vector3f place = rays.Point(lane);
+      const auto pixel = model_->Project(T_second_world_ * place.cast<double>());
+      if (!pixel || !Inside(*pixel)) continue;
+      pixels[lane] = *pixel;
+      const Eigen::Vector3f way = place - second_;
+      back.Set(lane, second_, way.normalized(), (1.0F - kSure) * way.norm());
+    }
+    scene_.Occluded(&back);
+    for (int lane = 0; lane < kPacketSize; ++lane) {
+      if (back.limit[lane] < 0.0F || back.distance[lane] == 0.0F) continue;
+      flow_x[start + lane] = static_cast<float>(pixels[lane].x());
+      flow_y[start + lane] = static_cast<float>(pixels[lane].y());
+    }
+  }
+
+ private:
+  bool Inside(const Eigen::Vector2d& pixel) const {
+    return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() <= width_ - 0.5 &&
+           pixel.y() <= height_ - 0.5;
+  }
+
+  const Scene& scene_;
+  const Renderer& renderer_;
+  std::unique_ptr<CameraModel> model_;
+  int width_;
+  int height_;
+  Eigen::Matrix3f R_world_first_;
+  Eigen::Vector3f first_;
+  Eigen::Vector3f second_;
+  SE3 T_second_world_;
+};
 
 }  // namespace
 
 void FindFlow(const Scene& scene, const Renderer& renderer, const CameraIntrinsics& intrinsics,
-              const RenderedView& view, const SE3& T_world_first, const SE3& T_world_second,
-              ThreadPool* pool, ImagePair* pair) {
-  const auto model = CameraModel::Create(intrinsics);
-  const Eigen::Matrix3f R_world_first = T_world_first.rotation.toRotationMatrix().cast<float>();
-  const Eigen::Vector3f first = T_world_first.translation.cast<float>();
-  const Eigen::Vector3f second = T_world_second.translation.cast<float>();
-  const SE3 T_second_world = T_world_second.Inverse();
-  pair->flow_x.assign(view.distance.size(), kUnknown);
-  pair->flow_y.assign(view.distance.size(), kUnknown);
-  const auto width = static_cast<size_t>(view.width);
-  constexpr size_t kRowsAtOnce = 16;
-  const auto find = [&](size_t start) {
-    // The exact places: rays of the first camera, then those of the second that should end there.
-    RayPacket seen;
-    for (int lane = 0; lane < kPacketSize; ++lane) {
-      const size_t i = start + static_cast<size_t>(lane);
-      seen.Off(lane);
-      if (i >= view.distance.size() || !std::isfinite(view.distance[i])) continue;
-      const auto column = static_cast<int>(i % width);
-      const auto row = static_cast<int>(i / width);
-      seen.Set(lane, first, R_world_first * renderer.bearing(column, row), 2e4F);
-    }
-    scene.Intersect(&seen, true);
-    RayPacket back;
-    for (int lane = 0; lane < kPacketSize; ++lane) {
-      back.Off(lane);
-      if (seen.limit[lane] < 0.0F || !std::isfinite(seen.distance[lane])) continue;
-      const Eigen::Vector3f place = seen.Point(lane);
-      const auto pixel = model->Project(T_second_world * place.cast<double>());
-      if (!pixel || pixel->x() < -0.5 || pixel->y() < -0.5 || pixel->x() > view.width - 0.5 ||
-          pixel->y() > view.height - 0.5) {
-        continue;
-      }
-      const Eigen::Vector3f way = place - second;
-      back.Set(lane, second, way.normalized(), (1.0F - kSure) * way.norm());
-      pair->flow_x[start + static_cast<size_t>(lane)] = static_cast<float>(pixel->x());
-      pair->flow_y[start + static_cast<size_t>(lane)] = static_cast<float>(pixel->y());
-    }
-    scene.Occluded(&back);
-    for (int lane = 0; lane < kPacketSize; ++lane) {
-      if (back.limit[lane] < 0.0F || back.distance[lane] > 0.0F) continue;
-      pair->flow_x[start + static_cast<size_t>(lane)] = kUnknown;
-      pair->flow_y[start + static_cast<size_t>(lane)] = kUnknown;
-    }
-  };
-  pool->ParallelFor(view.distance.size() / kPacketSize + 1, kRowsAtOnce * width / kPacketSize,
+              const SE3& T_world_first, const SE3& T_world_second, ThreadPool* pool,
+              ImagePair* pair) {
+  const FlowFinder finder(scene, renderer, intrinsics, T_world_first, T_world_second);
+  const auto count =
+      static_cast<size_t>(intrinsics.width) * static_cast<size_t>(intrinsics.height);
+  pair->flow_x.assign(count, kUnknown);
+  pair->flow_y.assign(count, kUnknown);
+  constexpr size_t kPacketsAtOnce = 512;
+  pool->ParallelFor((count + kPacketSize - 1) / kPacketSize, kPacketsAtOnce,
                     [&](size_t begin, size_t end, size_t) {
                       for (size_t packet = begin; packet < end; ++packet) {
-                        find(packet * kPacketSize);
+                        finder.Find(static_cast<int>(packet) * kPacketSize, pair->flow_x.data(),
+                                    pair->flow_y.data());
                       }
                     });
 }

@@ -23,9 +23,10 @@ struct ImagePair {
   bool same_sun = true;   ///< false: the sun stands elsewhere in the second image
 };
 
-/// Fills the correspondence of a pair from what the first camera saw (`view`).
+/// Fills the correspondence of a pair: the first camera's rays end at places of the scene that the
+/// second sees or does not.
 void FindFlow(const Scene& scene, const Renderer& renderer, const CameraIntrinsics& intrinsics,
-              const RenderedView& view, const SE3& T_world_first, const SE3& T_world_second,
-              ThreadPool* pool, ImagePair* pair);
+              const SE3& T_world_first, const SE3& T_world_second, ThreadPool* pool,
+              ImagePair* pair);
 
 }  // namespace regolith

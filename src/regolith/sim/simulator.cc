@@ -344,8 +344,8 @@ ImagePair RoverSimulator::Pair(int index, int count) {
   };
   pair.second = expose(pair.same_sun ? renderer_ : other_sun_->renderer, T_world_second, frame + 1);
   pair.first = expose(renderer_, T_world_first, frame);
-  FindFlow(*scene_, renderer_, MakeIntrinsics(options_.camera), view_, T_world_first,
-           T_world_second, pool_, &pair);
+  FindFlow(*scene_, renderer_, MakeIntrinsics(options_.camera), T_world_first, T_world_second,
+           pool_, &pair);
   return pair;
 }
 

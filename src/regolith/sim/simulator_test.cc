@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/sim/simulator.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -12,6 +13,7 @@
 #include "regolith/sim/drive_planner.h"
 #include "regolith/sim/lidar_simulator.h"
 #include "regolith/sim/photometry.h"
+#include "regolith/sim/renderer.h"
 #include "regolith/sim/rover_geometry.h"
 
 namespace regolith {
@@ -197,6 +199,56 @@ TEST_F(LidarTest, PointsLieOnTheGroundAtTheirOwnTimes) {
     EXPECT_NEAR(place.z(), ground_.Height(place.x(), place.y(), 0.04), 0.03);
   }
   EXPECT_GT(near, 2000);
+}
+
+// Lidar and camera see one surface: a lidar point, projected into an image, and the place that this
+// pixel sees are one place, by their parallax in an image from half a metre further on.
+TEST_F(LidarTest, PointsAndPixelsAreTheSamePlaces) {
+  LidarOptions options;
+  options.range_sigma = 0.0;
+  options.dropout = 0.0;
+  const CameraOptions camera;
+  const auto model = CameraModel::Create(MakeIntrinsics(camera));
+  const SE3 T_imu_lidar = BaseFromImu().Inverse() * BaseFromLidar(options);
+  const SE3 T_imu_camera = BaseFromImu().Inverse() * BaseFromCamera(camera, "mono");
+  const double start = 12.0;
+  const SE3 T_world_camera = motion_.PoseAt(start + 0.05) * T_imu_camera;
+  const SE3 T_later_world = (motion_.PoseAt(start + 1.05) * T_imu_camera).Inverse();
+  RenderedView view;
+  Renderer(MakeIntrinsics(camera), *scene_, photometry_, &pool_)
+      .Render(T_world_camera, Surroundings{}, &view);
+  const LidarScan scan = LidarSimulator(options, *scene_, motion_, 1, &pool_).Scan(start, 0);
+  std::vector<double> errors;
+  for (const LidarPoint& point : scan.points) {
+    const Eigen::Vector3d place = motion_.PoseAt(start + static_cast<double>(point.time)) *
+                                  (T_imu_lidar * point.position.cast<double>());
+    const auto pixel = model->Project(T_world_camera.Inverse() * place);
+    if (!pixel || (pixel->array() < 0.0).any() || pixel->x() >= 639.0 || pixel->y() >= 479.0) {
+      continue;
+    }
+    // Inverse distances are linear between the pixels of a plane.
+    const Eigen::Array2d low = pixel->array().floor();
+    const Eigen::Array2d share = pixel->array() - low;
+    double inverse = 0.0;
+    for (const int i : {0, 1}) {
+      for (const int j : {0, 1}) {
+        const double weight = (i ? share.x() : 1.0 - share.x()) * (j ? share.y() : 1.0 - share.y());
+        const auto at =
+            (static_cast<size_t>(low.y()) + static_cast<size_t>(j)) * 640 +
+            static_cast<size_t>(low.x()) + static_cast<size_t>(i);
+        inverse += weight / static_cast<double>(view.distance[at]);
+      }
+    }
+    if (inverse <= 0.0) continue;
+    const Eigen::Vector3d seen = T_world_camera * (*model->Unproject(*pixel) / inverse);
+    const auto of_point = model->Project(T_later_world * place);
+    const auto of_pixel = model->Project(T_later_world * seen);
+    if (of_point && of_pixel) errors.push_back((*of_point - *of_pixel).norm());
+  }
+  ASSERT_GT(errors.size(), 1000U);
+  std::nth_element(errors.begin(), errors.begin() + static_cast<int64_t>(errors.size() / 2),
+                   errors.end());
+  EXPECT_LT(errors[errors.size() / 2], 0.1);
 }
 
 TEST_F(LidarTest, RangesHaveTheirNoise) {
