@@ -15,8 +15,8 @@ namespace {
 constexpr double kSensitivity = 1.8e7;
 constexpr double kTargetLevel = 0.42;  // of full scale, of the lit ground
 constexpr double kLitQuantile = 0.75;
-constexpr double kBrightLevel = 0.9;
-constexpr double kBrightQuantile = 0.9;
+constexpr double kBrightLevel = 0.95;
+constexpr double kBrightQuantile = 0.97;
 constexpr double kStep = 0.5;  // of the way, in stops
 constexpr size_t kRowsAtOnce = 16;
 // Shorter motion than this (pixels) cannot be seen.
@@ -41,7 +41,8 @@ double Quantile(std::vector<float>* values, double share) {
 
 }  // namespace
 
-// The time · gain that brings the lit ground to its target and keeps a bright sky from saturating.
+// The time · gain that brings the lit ground to its target and keeps its brightest parts from
+// saturating. A Martian sky may: a rover looks at the ground.
 double ExposureControl::Needed(const RenderedView& view) const {
   constexpr int kEvery = 4;
   std::vector<float> all;
@@ -56,8 +57,8 @@ double ExposureControl::Needed(const RenderedView& view) const {
   if (ground.empty()) ground = all;
   const double full = options_.full_well / kSensitivity;
   const double for_ground = kTargetLevel * full / Quantile(&ground, kLitQuantile);
-  const double for_sky = kBrightLevel * full / Quantile(&all, kBrightQuantile);
-  return std::clamp(std::min(for_ground, for_sky), options_.min_exposure,
+  const double for_highlights = kBrightLevel * full / Quantile(&ground, kBrightQuantile);
+  return std::clamp(std::min(for_ground, for_highlights), options_.min_exposure,
                     options_.max_exposure * options_.max_gain);
 }
 

@@ -63,7 +63,7 @@ std::vector<float> CastFillLight(const Scene& scene, const Photometry& photometr
         for (int lane = 0; lane < kPacketSize; ++lane) {
           rays.Set(lane, place, kRays[packet * kPacketSize + static_cast<size_t>(lane)], kFar);
         }
-        scene.Intersect(&rays, false);
+        scene.Intersect(&rays);
         for (int lane = 0; lane < kPacketSize; ++lane) {
           sum += Arriving(scene, photometry, interreflection, rays, lane);
         }

@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace regolith {
 namespace {
 
 constexpr float kSlopeScale = 8192.0F;  // slopes up to 4
-constexpr float kAlbedoScale = 65535.0F;
-constexpr float kLightScale = 16384.0F;  // up to 4: a cliff that faces a low sun
-constexpr float kFillScale = 65535.0F;
+constexpr float kAlbedoScale = 32767.0F;
+constexpr float kLightScale = 8191.0F;  // up to 4: a cliff that faces a low sun
+constexpr float kFillScale = 32767.0F;
 constexpr double kSkirtDepth = 1.5;  // of the spacing
 constexpr int kMostTaps = 4;
 
@@ -19,8 +20,8 @@ int16_t PackSlope(double slope) {
   return static_cast<int16_t>(std::lround(std::clamp(slope, -3.9, 3.9) * kSlopeScale));
 }
 
-uint16_t Pack(float value, float scale) {
-  return static_cast<uint16_t>(std::clamp(value * scale + 0.5F, 0.0F, 65535.0F));
+int16_t Pack(float value, float scale) {
+  return static_cast<int16_t>(std::clamp(value * scale + 0.5F, 0.0F, 32767.0F));
 }
 
 }  // namespace
@@ -134,8 +135,8 @@ void GroundTile::Average(int mip) {
       Texel& texel = texels[j * posts + i];
       texel.slope_x = static_cast<int16_t>(slope_x / 16);
       texel.slope_y = static_cast<int16_t>(slope_y / 16);
-      texel.albedo = static_cast<uint16_t>(albedo / 16);
-      texel.light = static_cast<uint16_t>(light / 16);
+      texel.albedo = static_cast<int16_t>(albedo / 16);
+      texel.light = static_cast<int16_t>(light / 16);
     }
   }
 }
@@ -155,15 +156,12 @@ void GroundTile::AddBilinear(int mip, float i, float j, float weight, Sum* sum) 
   const float w01 = b - w11;
   const float w10 = a * (weight - b);
   const float w00 = (weight - b) - w10;
-  const auto mix = [&](auto Texel::*member) {
-    return w00 * static_cast<float>(low[0].*member) + w10 * static_cast<float>(low[1].*member) +
-           w01 * static_cast<float>(high[0].*member) + w11 * static_cast<float>(high[1].*member);
+  const auto at = [](const Texel* texel) {
+    TexelVector vector;
+    std::memcpy(&vector, texel, sizeof(vector));
+    return __builtin_convertvector(vector, Sum);
   };
-  sum->slope_x += mix(&Texel::slope_x);
-  sum->slope_y += mix(&Texel::slope_y);
-  sum->albedo += mix(&Texel::albedo);
-  sum->light += mix(&Texel::light);
-  sum->fill += mix(&Texel::fill);
+  *sum += w00 * at(low) + w10 * at(low + 1) + w01 * at(high) + w11 * at(high + 1);
 }
 
 SurfacePoint GroundTile::At(float x, float y, float width, float length,
@@ -184,7 +182,7 @@ SurfacePoint GroundTile::At(float x, float y, float width, float length,
   const float share = 1.0F / static_cast<float>(taps);
   const float step = scale * length * share;
   const float texels = 1.0F / static_cast<float>(1 << mip);
-  Sum sum;
+  Sum sum = {};
   for (int tap = 0; tap < taps; ++tap) {
     const float offset = step * (static_cast<float>(tap) - 0.5F * static_cast<float>(taps - 1));
     const float u = texels * (i + offset * along.x());
@@ -194,10 +192,10 @@ SurfacePoint GroundTile::At(float x, float y, float width, float length,
   }
   SurfacePoint point;
   point.normal =
-      Eigen::Vector3f(-sum.slope_x / kSlopeScale, -sum.slope_y / kSlopeScale, 1.0F).normalized();
-  point.albedo = sum.albedo / kAlbedoScale;
-  point.light = point.normal.z() * sum.light / kLightScale;
-  point.fill = sum.fill / kFillScale;
+      Eigen::Vector3f(-sum[0] / kSlopeScale, -sum[1] / kSlopeScale, 1.0F).normalized();
+  point.albedo = sum[2] / kAlbedoScale;
+  point.light = point.normal.z() * sum[3] / kLightScale;
+  point.fill = sum[4] / kFillScale;
   return point;
 }
 

@@ -40,7 +40,7 @@ class FlowFinder {
       rays.Set(lane, first_, R_world_first_ * renderer_.bearing(pixel % width_, pixel / width_),
                kFarAway);
     }
-    scene_.Intersect(&rays, true);
+    scene_.Intersect(&rays);
     RayPacket back;
     Eigen::Vector2d pixels[kPacketSize];
     for (int lane = 0; lane < kPacketSize; ++lane) {

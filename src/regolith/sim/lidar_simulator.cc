@@ -121,7 +121,7 @@ void LidarSimulator::CastFirings(double start, int begin, int end, Return* retur
         rays.Off(lane);
       }
     }
-    scene_.Intersect(&rays, false);
+    scene_.Intersect(&rays);
     for (size_t i = 0; i < firings.size(); ++i) {
       returns[firings[i].first_beam + static_cast<size_t>(laser)] =
           Receive(rays, static_cast<int>(i) * kBeamRays);

@@ -73,6 +73,7 @@ Photometry::Photometry(const std::string& planet, const SunOptions& sun, double 
   direct_ = static_cast<float>(passed);
   diffuse_ = static_cast<float>(kForwardShare * (1.0 - passed) * sine);
   extinction_ = static_cast<float>(sun.tau / kScaleHeight);
+  tau_ = static_cast<float>(sun.tau);
   for (size_t i = 0; i <= kTable; ++i) {
     const double cosine = 2.0 * static_cast<double>(i) / kTable - 1.0;
     const double g = std::acos(std::min(cosine, 1.0));
@@ -134,11 +135,11 @@ float Photometry::FillOutside(const Eigen::Vector3f& normal) const {
   return up * diffuse_ + (1.0F - up) * kGroundShare * level_ground_;
 }
 
-// Brighter towards the sun and the horizon.
+// Brighter towards the sun, and towards the horizon as the way through the dust grows.
 float Photometry::SkyShape(const Eigen::Vector3f& direction) const {
   const auto cosine = static_cast<double>(direction.dot(sun_.direction));
   const auto aureole = static_cast<float>(std::min(HenyeyGreenstein(kDustAsymmetry, cosine), 4.0));
-  const float horizon = 1.0F - 0.35F * std::max(direction.z(), 0.0F);
+  const float horizon = 1.0F - std::exp(-tau_ / std::max(direction.z(), 0.02F));
   return horizon * (0.6F + 0.4F * aureole);
 }
 

@@ -61,6 +61,7 @@ class Photometry {
   float diffuse_;           // of it, what the sky sends down on level ground
   float sky_scale_ = 0.0F;  // makes the sky send diffuse_
   float extinction_;        // 1/m
+  float tau_;
   float level_ground_ = 0.0F;
   Table limb_{};   // L(g) by cos g
   Table phase_{};  // f(g) by cos g

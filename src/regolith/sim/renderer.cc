@@ -20,6 +20,9 @@ constexpr float kFarGround = 7.0F;  // m
 constexpr float kToleranceAcross = 0.02F;
 constexpr float kToleranceDown = 0.03F;
 constexpr float kToleranceByMetre = 0.012F;
+// Two rays one pixel apart, to interpolate half-way between them.
+constexpr float kToleranceHalfway = 0.015F;
+constexpr float kToleranceHalfwayByMetre = 0.006F;
 constexpr float kMostTolerance = 0.3F;
 // Neighbouring pixels of one surface differ less than this in distance.
 constexpr float kEdgeRatio = 1.12F;
@@ -100,7 +103,7 @@ void Renderer::CastColumns(const Pose& pose, Span<const int> columns, Line* line
       rays.Set(static_cast<int>(lane), pose.origin, line->directions[column],
                lane < count ? kFarAway : -1.0F);
     }
-    scene_.Intersect(&rays, true);
+    scene_.Intersect(&rays);
     for (size_t lane = 0; lane < count; ++lane) {
       const auto column = static_cast<size_t>(columns[first + lane]);
       line->distances[column] = rays.distance[lane];
@@ -113,50 +116,39 @@ void Renderer::CastColumns(const Pose& pose, Span<const int> columns, Line* line
 }
 
 // The ray half-way between two that see the sky, or nearly the same place of the ground.
-bool Renderer::Interpolate(const Pose& pose, const Line& first, int first_column,
-                           const Line& second, int second_column, float tolerance, Line* line,
-                           int column) const {
-  const auto one = static_cast<size_t>(first_column);
-  const auto other = static_cast<size_t>(second_column);
+bool Renderer::Interpolate(const Pose& pose, const End& one, const End& other, float tolerance,
+                           Line* line, int column) const {
+  if (one.object == kNothing || other.object == kNothing) return one.object == other.object;
+  if (scene_.IsRock(one.object) || scene_.IsRock(other.object)) return false;
+  const float nearer = std::min(one.distance, other.distance);
+  const float farther = std::max(one.distance, other.distance);
+  if (farther - nearer > std::min(tolerance, kMostTolerance) * nearer) return false;
   const auto here = static_cast<size_t>(column);
-  const uint32_t object = first.objects[one];
-  if (object == kNothing || second.objects[other] == kNothing) {
-    return object == second.objects[other];
-  }
-  if (scene_.IsRock(object) || scene_.IsRock(second.objects[other])) return false;
-  const float nearer = std::min(first.distances[one], second.distances[other]);
-  const float farther = std::max(first.distances[one], second.distances[other]);
-  if (farther - nearer >
-      std::min(tolerance + kToleranceByMetre * nearer, kMostTolerance) * nearer) {
-    return false;
-  }
   const float distance = 2.0F * nearer * farther / (nearer + farther);
   const Eigen::Vector3f place = pose.origin + distance * line->directions[here];
-  const bool on_first = scene_.Covers(object, place.x(), place.y());
-  if (!on_first && !scene_.Covers(second.objects[other], place.x(), place.y())) return false;
+  const bool on_one = scene_.Covers(one.object, place.x(), place.y());
+  if (!on_one && !scene_.Covers(other.object, place.x(), place.y())) return false;
   line->distances[here] = distance;
-  line->objects[here] = on_first ? object : second.objects[other];
+  line->objects[here] = on_one ? one.object : other.object;
   return true;
 }
 
-// Casts every second of the wanted columns, and those that cannot be interpolated between them.
-void Renderer::CastSparse(const Pose& pose, int parity, Span<const char> wanted, Line* line) const {
-  const auto is_wanted = [&](int column) {
-    return column >= 0 && column < width_ &&
-           (wanted.empty() || wanted[static_cast<size_t>(column)]);
-  };
+// Casts every second column, and those that cannot be interpolated between them.
+void Renderer::CastSparse(const Pose& pose, Line* line) const {
   std::vector<int> columns;
-  for (int column = parity; column < width_; column += 2) {
-    if (is_wanted(column)) columns.push_back(column);
-  }
+  for (int column = 0; column < width_; column += 2) columns.push_back(column);
   CastColumns(pose, columns, line);
   columns.clear();
-  for (int column = 1 - parity; column < width_; column += 2) {
-    if (!is_wanted(column)) continue;
-    if (!is_wanted(column - 1) || !is_wanted(column + 1) ||
-        !Interpolate(pose, *line, column - 1, *line, column + 1, kToleranceAcross, line, column)) {
+  for (int column = 1; column < width_; column += 2) {
+    if (column + 1 == width_) {
       columns.push_back(column);
+      continue;
     }
+    const auto here = static_cast<size_t>(column);
+    const End left{line->distances[here - 1], line->objects[here - 1]};
+    const End right{line->distances[here + 1], line->objects[here + 1]};
+    const float tolerance = kToleranceAcross + kToleranceByMetre * left.distance;
+    if (!Interpolate(pose, left, right, tolerance, line, column)) columns.push_back(column);
   }
   CastColumns(pose, columns, line);
 }
@@ -165,9 +157,28 @@ void Renderer::CastBetween(const Pose& pose, const Line& above, const Line& belo
                            Line* line) const {
   std::vector<int> columns;
   for (int column = 0; column < width_; ++column) {
-    if (!Interpolate(pose, above, column, below, column, kToleranceDown, line, column)) {
-      columns.push_back(column);
-    }
+    const auto here = static_cast<size_t>(column);
+    const End upper{above.distances[here], above.objects[here]};
+    const End lower{below.distances[here], below.objects[here]};
+    const float tolerance = kToleranceDown + kToleranceByMetre * lower.distance;
+    if (!Interpolate(pose, upper, lower, tolerance, line, column)) columns.push_back(column);
+  }
+  CastColumns(pose, columns, line);
+}
+
+// The wanted columns half-way between two lines of pixels.
+void Renderer::CastHalfway(const Pose& pose, const std::vector<uint32_t>& objects,
+                           const RenderedView& view, int upper_row, Span<const char> wanted,
+                           Line* line) const {
+  std::vector<int> columns;
+  for (int column = 0; column < width_; ++column) {
+    if (!wanted[static_cast<size_t>(column)]) continue;
+    const auto above = static_cast<size_t>(upper_row * width_ + column);
+    const size_t below = above + static_cast<size_t>(width_);
+    const End upper{view.distance[above], objects[above]};
+    const End lower{view.distance[below], objects[below]};
+    const float tolerance = kToleranceHalfway + kToleranceHalfwayByMetre * lower.distance;
+    if (!Interpolate(pose, upper, lower, tolerance, line, column)) columns.push_back(column);
   }
   CastColumns(pose, columns, line);
 }
@@ -179,16 +190,16 @@ void Renderer::RenderRows(const Pose& pose, const Surroundings& surroundings, in
     ShadeLine(pose, surroundings, line, {}, &view->radiance[start]);
     for (size_t i = 0; i < line.objects.size(); ++i) {
       view->distance[start + i] = line.distances[i];
-      (*objects)[start + i] = Class(scene_, line.objects[i]);
+      (*objects)[start + i] = line.objects[i];
     }
   };
   Line above = Aim(pose, begin, 0.0F);
-  CastSparse(pose, 0, {}, &above);
+  CastSparse(pose, &above);
   for (int row = begin; row < end; row += 2) {
     keep(row, above);
     if (row + 1 >= end) break;
     Line below = Aim(pose, std::min(row + 2, height_ - 1), 0.0F);
-    CastSparse(pose, 0, {}, &below);
+    CastSparse(pose, &below);
     Line between = Aim(pose, row + 1, 0.0F);
     CastBetween(pose, above, below, &between);
     keep(row + 1, between);
@@ -227,7 +238,10 @@ bool Renderer::OnEdge(const std::vector<uint32_t>& objects, const std::vector<fl
   const auto pixel = static_cast<size_t>(row * width_ + column);
   const float distance = distances[pixel];
   const auto differs = [&](size_t other) {
-    if (objects[pixel] != objects[other]) return true;
+    if (objects[pixel] != objects[other] &&
+        Class(scene_, objects[pixel]) != Class(scene_, objects[other])) {
+      return true;
+    }
     const float ratio = distance / distances[other];
     return ratio > kEdgeRatio + kToleranceByMetre * distances[other] ||
            ratio * (kEdgeRatio + kToleranceByMetre * distance) < 1.0F;
@@ -267,13 +281,14 @@ void Renderer::RefineRows(const Pose& pose, const Surroundings& surroundings, in
     }
     if (!edges.empty()) RefineEdges(pose, surroundings, row, edges, view);
   }
-  RefineFar(pose, surroundings, begin, far, view);
+  RefineFar(pose, surroundings, begin, far, objects, view);
 }
 
 // Far pixels get half of their light from their own line and a quarter each from the lines between
 // them and their neighbours: a tent over two pixels' height.
 void Renderer::RefineFar(const Pose& pose, const Surroundings& surroundings, int begin,
-                         const std::vector<std::vector<char>>& far, RenderedView* view) const {
+                         const std::vector<std::vector<char>>& far,
+                         const std::vector<uint32_t>& objects, RenderedView* view) const {
   const auto rows = static_cast<int>(far.size());
   const auto width = static_cast<size_t>(width_);
   const auto is_far = [&](int row, size_t column) {
@@ -292,7 +307,7 @@ void Renderer::RefineFar(const Pose& pose, const Surroundings& surroundings, int
     }
     if (std::find(wanted.begin(), wanted.end(), 1) == wanted.end()) continue;
     Line line = Aim(pose, begin + upper, 0.5F);
-    CastSparse(pose, 1, wanted, &line);
+    CastHalfway(pose, objects, *view, begin + upper, wanted, &line);
     ShadeLine(pose, surroundings, line, wanted, between.data());
     for (const int row : {upper, upper + 1}) {
       for (size_t i = 0; i < width; ++i) {
@@ -323,7 +338,7 @@ void Renderer::RefineEdges(const Pose& pose, const Surroundings& surroundings, i
       rays.Set(lane, pose.origin, pose.R_world_camera * Between(column, row, shift, -shift),
                kFarAway);
     }
-    scene_.Intersect(&rays, true);
+    scene_.Intersect(&rays);
     Shade(rays, count, 0.5F * pixel_, 0.5F * pixel_, surroundings, shades);
     for (size_t pixel = 0; pixel < pixels; ++pixel) {
       const float* parts = shades + pixel * kSubsamples;

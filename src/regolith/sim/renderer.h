@@ -64,12 +64,18 @@ class Renderer {
     std::vector<float> v;
   };
 
+  // Where a ray ended.
+  struct End {
+    float distance;  // m
+    uint32_t object;
+  };
+
   Line Aim(const Pose& pose, int row, float down) const;
   void CastColumns(const Pose& pose, Span<const int> columns, Line* line) const;
-  void CastSparse(const Pose& pose, int parity, Span<const char> wanted, Line* line) const;
+  void CastSparse(const Pose& pose, Line* line) const;
   void CastBetween(const Pose& pose, const Line& above, const Line& below, Line* line) const;
-  bool Interpolate(const Pose& pose, const Line& first, int first_column, const Line& second,
-                   int second_column, float tolerance, Line* line, int column) const;
+  bool Interpolate(const Pose& pose, const End& one, const End& other, float tolerance, Line* line,
+                   int column) const;
   void RenderRows(const Pose& pose, const Surroundings& surroundings, int begin, int end,
                   RenderedView* view, std::vector<uint32_t>* objects) const;
   void ShadeLine(const Pose& pose, const Surroundings& surroundings, const Line& line,
@@ -77,7 +83,10 @@ class Renderer {
   void RefineRows(const Pose& pose, const Surroundings& surroundings, int begin, int end,
                   const std::vector<uint32_t>& objects, RenderedView* view) const;
   void RefineFar(const Pose& pose, const Surroundings& surroundings, int begin,
-                 const std::vector<std::vector<char>>& far, RenderedView* view) const;
+                 const std::vector<std::vector<char>>& far, const std::vector<uint32_t>& objects,
+                 RenderedView* view) const;
+  void CastHalfway(const Pose& pose, const std::vector<uint32_t>& objects, const RenderedView& view,
+                   int upper_row, Span<const char> wanted, Line* line) const;
   void RefineEdges(const Pose& pose, const Surroundings& surroundings, int row,
                    Span<const int> columns, RenderedView* view) const;
   bool OnEdge(const std::vector<uint32_t>& objects, const std::vector<float>& distances, int column,

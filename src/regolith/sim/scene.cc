@@ -13,6 +13,7 @@
 
 #include "regolith/core/check.h"
 #include "regolith/sim/fill_light.h"
+#include "regolith/sim/rock_grain.h"
 #include "regolith/sim/tile_tree.h"
 
 namespace regolith {
@@ -25,6 +26,7 @@ constexpr float kFarAway = 2e4F;            // m
 // Rays of light start above the post by this share of the posts' spacing, so that neither rounding
 // nor a coarser neighbour's seam shades it.
 constexpr float kShadowLift = 0.2F;
+constexpr uint32_t kSeedStep = 0x9e3779b9U;  // between two rocks' grains
 
 struct RockBand {
   double diameter;  // m, from which on
@@ -135,7 +137,7 @@ class EmbreeScene : public Scene {
 
   void MoveTo(const Eigen::Vector2d& position) override;
 
-  void Intersect(RayPacket* rays, bool coherent) const override {
+  void Intersect(RayPacket* rays) const override {
     alignas(64) int valid[kPacketSize];
     RTCRayHit16 rayhit;
     Load(*rays, &rayhit.ray, valid);
@@ -143,9 +145,9 @@ class EmbreeScene : public Scene {
       rayhit.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       rayhit.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
+    // Not flagged as coherent: even a camera's neighbouring rays then cost a sixth more here.
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcIntersect16(valid, scene_, &context, &rayhit);
     for (int i = 0; i < kPacketSize; ++i) {
       const bool hit = valid[i] != 0 && rayhit.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
@@ -192,7 +194,7 @@ class EmbreeScene : public Scene {
   std::vector<Tile*> Exchange(const std::vector<TileKey>& wanted);
   void Commit(const std::vector<Tile*>& made);
   void CastLight(const std::vector<Tile*>& tiles);
-  SurfacePoint LookAtRock(const RayPacket& rays, int lane) const;
+  SurfacePoint LookAtRock(const RayPacket& rays, int lane, float width) const;
 
   static void Load(const RayPacket& rays, RTCRay16* ray, int* valid) {
     for (int i = 0; i < kPacketSize; ++i) {
@@ -336,7 +338,7 @@ void EmbreeScene::CastLight(const std::vector<Tile*>& tiles) {
 
 SurfacePoint EmbreeScene::Look(const RayPacket& rays, int lane, float width, float height) const {
   const uint32_t object = rays.object[lane];
-  if (IsRock(object)) return LookAtRock(rays, lane);
+  if (IsRock(object)) return LookAtRock(rays, lane, width);
   const GroundTile& tile = *by_id_[object - rocks_.size()];
   const Eigen::Vector3f place = rays.Point(lane);
   // The footprint is stretched where the ray grazes the level ground.
@@ -347,7 +349,7 @@ SurfacePoint EmbreeScene::Look(const RayPacket& rays, int lane, float width, flo
   return tile.At(place.x(), place.y(), width, height / down, along);
 }
 
-SurfacePoint EmbreeScene::LookAtRock(const RayPacket& rays, int lane) const {
+SurfacePoint EmbreeScene::LookAtRock(const RayPacket& rays, int lane, float width) const {
   const Rock& rock = rocks_[rays.object[lane]];
   const RockShape& shape = shapes_[rock.shape];
   const auto& corners = shape.triangles[rays.triangle[lane]];
@@ -355,13 +357,15 @@ SurfacePoint EmbreeScene::LookAtRock(const RayPacket& rays, int lane) const {
   const float v = rays.v[lane];
   const Eigen::Vector3f normal = (1.0F - u - v) * shape.normals[corners[0]] +
                                  u * shape.normals[corners[1]] + v * shape.normals[corners[2]];
-  const auto cosine = static_cast<float>(std::cos(rock.yaw));
-  const auto sine = static_cast<float>(std::sin(rock.yaw));
+  const Eigen::Matrix3f R_world_rock =
+      Eigen::AngleAxisf(static_cast<float>(rock.yaw), Eigen::Vector3f::UnitZ()).toRotationMatrix();
+  const Eigen::Vector3d centre(rock.centre.x(), rock.centre.y(), rock.ground);
+  const RockGrain grain =
+      GrainOfRock(rays.object[lane] * kSeedStep,
+                  R_world_rock.transpose() * (rays.Point(lane) - centre.cast<float>()), width);
   SurfacePoint point;
-  point.normal = Eigen::Vector3f(cosine * normal.x() - sine * normal.y(),
-                                 sine * normal.x() + cosine * normal.y(), normal.z())
-                     .normalized();
-  point.albedo = rock.brightness * photometry_.ground_albedo();
+  point.normal = R_world_rock * (normal.normalized() - grain.slope).normalized();
+  point.albedo = grain.brightness * rock.brightness * photometry_.ground_albedo();
   return point;
 }
 

@@ -32,8 +32,8 @@ class Scene {
   /// are depends on `position` alone. Not to be called while others look.
   virtual void MoveTo(const Eigen::Vector2d& position) = 0;
 
-  /// What each ray meets first. `coherent`: the rays run side by side (a camera's).
-  virtual void Intersect(RayPacket* rays, bool coherent) const = 0;
+  /// What each ray meets first.
+  virtual void Intersect(RayPacket* rays) const = 0;
 
   /// Whether anything lies on each ray: distance becomes 0 where so, infinite where not.
   virtual void Occluded(RayPacket* rays) const = 0;

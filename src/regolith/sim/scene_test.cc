@@ -56,7 +56,7 @@ class SceneTest : public testing::Test {
     RayPacket ray;
     for (int lane = 1; lane < kPacketSize; ++lane) ray.Off(lane);
     ray.Set(0, {x, y, 20.0F}, -Eigen::Vector3f::UnitZ(), 100.0F);
-    scene_->Intersect(&ray, false);
+    scene_->Intersect(&ray);
     return ray;
   }
 
@@ -182,7 +182,7 @@ TEST_F(SceneTest, HasNoHoles) {
       rays.Set(lane, {1.0F, 0.2F, 1.2F},
                Eigen::Vector3f(std::cos(turn), std::sin(turn), -down).normalized(), 1000.0F);
     }
-    scene_->Intersect(&rays, false);
+    scene_->Intersect(&rays);
     for (int lane = 0; lane < kPacketSize; ++lane) missed += rays.object[lane] == kNothing ? 1 : 0;
   }
   EXPECT_EQ(missed, 0);
