@@ -14,6 +14,7 @@
 #include "regolith/apps/progress.h"
 #include "regolith/config/rig_config.h"
 #include "regolith/config/scenario_config.h"
+#include "regolith/core/check.h"
 #include "regolith/core/error.h"
 #include "regolith/core/log.h"
 #include "regolith/core/stop.h"
@@ -144,9 +145,13 @@ int Simulate(const SimulateArguments& arguments) {
   if (arguments.pairs_only && arguments.pairs == 0) {
     throw InputError("--pairs-only", "writes nothing without --pairs N");
   }
+  SetQuiet(arguments.quiet);
   const ScenarioOptions options = ResolveScenario(arguments);
   ThreadPool threads(arguments.threads);
+  LogInfo(Concatenate("planning a drive of ", options.duration,
+                      " s and lighting the ground around it: takes some seconds"));
   const auto simulator = MakeSimulator(arguments, options, &threads);
+  if (StopRequested()) return kInterrupted;
   PrepareOutputFolder(arguments.out, arguments.overwrite);
   WriteSurroundings(arguments, *simulator, options);
 

@@ -145,7 +145,8 @@ class EmbreeScene : public Scene {
       rayhit.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       rayhit.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    // Not flagged as coherent: even a camera's neighbouring rays then cost a sixth more here.
+    // Not flagged as coherent: even a camera's neighbouring rays then cost a sixth more here, and
+    // Embree 3.13 was seen to hang in them.
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcIntersect16(valid, scene_, &context, &rayhit);
