@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/terrain/dem_quality.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "regolith/terrain/effective_resolution.h"
+#include "regolith/terrain/raster_lines_internal.h"
+#include "regolith/terrain/slope_statistics.h"
+
+namespace regolith {
+namespace {
+
+constexpr double kSigmaPerMedian = 1.4826;  // of |deviation|, of normal deviates
+constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
+constexpr size_t kLargestSample = 200000;
+
+double RobustSpread(std::vector<double> deviations) {
+  return deviations.empty() ? 0.0 : kSigmaPerMedian * MedianMagnitude(std::move(deviations));
+}
+
+// --- Spikes ---------------------------------------------------------------------------------
+
+constexpr int kBlock = 16;             // posts a side, in which the spread of residuals is taken
+constexpr double kSpikeSpreads = 12.0;  // from what the neighbours predict
+constexpr double kAloofSpreads = 6.0;   // from the nearest of them: summits and cliffs have company
+constexpr double kSmallestSpread = 1e-4;  // m
+
+struct Residual {
+  float off = kMissing;    // m, from what the neighbours predict
+  float aloof = kMissing;  // m, beyond the highest neighbour, or below the lowest
+};
+
+// Opposite neighbours' means agree on any slope; the median of the four ignores another spike.
+Residual ResidualOf(const HeightGrid& grid, int column, int row) {
+  const float height = grid.At(column, row);
+  constexpr int kWays[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+  std::array<float, 4> means;
+  size_t pairs = 0;
+  float lowest = std::numeric_limits<float>::infinity();
+  float highest = -lowest;
+  for (const auto& way : kWays) {
+    const float one = grid.At(column - way[0], row - way[1]);
+    const float other = grid.At(column + way[0], row + way[1]);
+    for (const float neighbour : {one, other}) {
+      if (!std::isfinite(neighbour)) continue;
+      lowest = std::min(lowest, neighbour);
+      highest = std::max(highest, neighbour);
+    }
+    const float mean = 0.5F * (one + other);
+    if (std::isfinite(mean)) means[pairs++] = mean;
+  }
+  if (pairs < 3 || !std::isfinite(height)) return {};
+  std::sort(means.begin(), means.begin() + static_cast<std::ptrdiff_t>(pairs));
+  const float off = height - 0.5F * (means[(pairs - 1) / 2] + means[pairs / 2]);
+  return {off, off > 0.0F ? height - highest : lowest - height};
+}
+
+// Spreads of the residuals, block by block; rough ground excuses what smooth ground does not.
+class LocalSpread {
+ public:
+  LocalSpread(const HeightGrid& grid, const std::vector<Residual>& residuals)
+      : columns_((grid.columns + kBlock - 1) / kBlock), rows_((grid.rows + kBlock - 1) / kBlock) {
+    std::vector<std::vector<double>> blocks(static_cast<size_t>(columns_ * rows_));
+    for (int row = 0; row < grid.rows; ++row) {
+      for (int column = 0; column < grid.columns; ++column) {
+        const float off = residuals[static_cast<size_t>(row) * static_cast<size_t>(grid.columns) +
+                                    static_cast<size_t>(column)]
+                              .off;
+        if (std::isfinite(off)) blocks[Index(column / kBlock, row / kBlock)].push_back(off);
+      }
+    }
+    std::vector<double> known;
+    for (auto& block : blocks) {
+      const bool empty = block.empty();
+      spreads_.push_back(RobustSpread(std::move(block)));
+      if (!empty) known.push_back(spreads_.back());
+    }
+    const double typical = known.empty() ? 0.0 : MedianMagnitude(std::move(known));
+    floor_ = std::max(0.5 * typical, kSmallestSpread);
+  }
+
+  /// The largest of the block of a post and those around it.
+  double At(int column, int row) const {
+    double spread = floor_;
+    for (int j = std::max(0, row / kBlock - 1); j <= std::min(rows_ - 1, row / kBlock + 1); ++j) {
+      for (int i = std::max(0, column / kBlock - 1); i <= std::min(columns_ - 1, column / kBlock + 1);
+           ++i) {
+        spread = std::max(spread, spreads_[Index(i, j)]);
+      }
+    }
+    return spread;
+  }
+
+ private:
+  size_t Index(int column, int row) const { return static_cast<size_t>(row * columns_ + column); }
+
+  int columns_;
+  int rows_;
+  std::vector<double> spreads_;
+  double floor_;
+};
+
+std::vector<size_t> FindSpikes(const HeightGrid& grid) {
+  std::vector<Residual> residuals(grid.heights.size());
+  const auto index = [&](int column, int row) {
+    return static_cast<size_t>(row) * static_cast<size_t>(grid.columns) +
+           static_cast<size_t>(column);
+  };
+  for (int row = 1; row + 1 < grid.rows; ++row) {
+    for (int column = 1; column + 1 < grid.columns; ++column) {
+      residuals[index(column, row)] = ResidualOf(grid, column, row);
+    }
+  }
+  const LocalSpread spread(grid, residuals);
+  std::vector<size_t> spikes;
+  for (int row = 1; row + 1 < grid.rows; ++row) {
+    for (int column = 1; column + 1 < grid.columns; ++column) {
+      const Residual& residual = residuals[index(column, row)];
+      if (!(static_cast<double>(residual.aloof) > kAloofSpreads * kSmallestSpread)) continue;
+      const double local = spread.At(column, row);
+      if (std::abs(static_cast<double>(residual.off)) > kSpikeSpreads * local &&
+          static_cast<double>(residual.aloof) > kAloofSpreads * local) {
+        spikes.push_back(index(column, row));
+      }
+    }
+  }
+  return spikes;
+}
+
+// --- Stripes --------------------------------------------------------------------------------
+
+constexpr int kShortestRun = 8;         // posts
+constexpr double kClampSpreads = 4.0;   // beyond which a difference counts no more
+constexpr double kVisibleShare = 0.1;   // of the spread of a row against its neighbours
+constexpr double kSignificance = 5.0;   // standard errors
+constexpr double kOffsetVariances = 1.5;  // of a line less the mean of its neighbours
+
+struct Stripes {
+  double rms = 0.0;      // m
+  bool visible = false;
+};
+
+double AgainstNeighbours(const RasterLines& lines, int line, int along) {
+  return static_cast<double>(lines.At(line, along)) -
+         0.5 * (static_cast<double>(lines.At(line - 1, along)) + lines.At(line + 1, along));
+}
+
+double SpreadAgainstNeighbours(const RasterLines& lines) {
+  const size_t all = lines.grid.heights.size();
+  const int step = static_cast<int>(all / kLargestSample) + 1;
+  std::vector<double> sample;
+  for (int line = 1; line + 1 < lines.count(); ++line) {
+    for (int along = (line * 7) % step; along < lines.length(); along += step) {
+      const double value = AgainstNeighbours(lines, line, along);
+      if (std::isfinite(value)) sample.push_back(value);
+    }
+  }
+  return RobustSpread(std::move(sample));
+}
+
+// Means over runs of a line; NaN where half of a run is missing.
+std::vector<double> RunMeans(const RasterLines& lines, int line, int run, double limit) {
+  std::vector<double> means;
+  for (int first = 0; first + run <= lines.length(); first += run) {
+    double sum = 0.0;
+    int count = 0;
+    for (int along = first; along < first + run; ++along) {
+      const double value = AgainstNeighbours(lines, line, along);
+      if (!std::isfinite(value)) continue;
+      sum += std::clamp(value, -limit, limit);
+      ++count;
+    }
+    means.push_back(2 * count > run ? sum / count : static_cast<double>(kMissing));
+  }
+  return means;
+}
+
+// What runs of a line that do not touch have in common is an offset of the line: noise and relief
+// agree by chance only.
+Stripes FindStripes(const RasterLines& lines, double effective_resolution) {
+  const double posts = effective_resolution / lines.grid.spacing;
+  const int run = std::max(kShortestRun, static_cast<int>(std::ceil(2.0 * posts)));
+  const double spread = SpreadAgainstNeighbours(lines);
+  double sum = 0.0;
+  double squares = 0.0;
+  double count = 0.0;
+  for (int line = 1; line + 1 < lines.count(); ++line) {
+    const std::vector<double> means = RunMeans(lines, line, run, kClampSpreads * spread);
+    for (size_t i = 0; i + 2 < means.size(); ++i) {
+      const double product = means[i] * means[i + 2];
+      if (!std::isfinite(product)) continue;
+      sum += product;
+      squares += product * product;
+      count += 1.0;
+    }
+  }
+  if (count == 0.0 || sum <= 0.0) return {};
+  const double rms = std::sqrt(sum / count / kOffsetVariances);
+  const bool significant = sum > kSignificance * std::sqrt(squares);
+  return {rms, significant && rms > kVisibleShare * spread};
+}
+
+// --- Quantisation ---------------------------------------------------------------------------
+
+constexpr double kCoarseShare = 0.05;  // of the median step between neighbours
+constexpr double kMostSteps = 10.0;    // to which multiples of the step are looked at
+constexpr double kMultiples = 0.98;    // of them have to be multiples
+
+std::vector<double> HeightSteps(const HeightGrid& grid, double rounding) {
+  std::vector<double> steps;
+  const size_t stride = grid.heights.size() / kLargestSample + 1;
+  for (size_t i = 1; i < grid.heights.size(); i += stride) {
+    const double step = std::abs(static_cast<double>(grid.heights[i]) - grid.heights[i - 1]);
+    if (std::isfinite(step) && step > rounding) steps.push_back(step);
+  }
+  std::sort(steps.begin(), steps.end());
+  return steps;
+}
+
+double FindQuantisation(const HeightGrid& grid) {
+  double largest = 0.0;
+  for (const float height : grid.heights) {
+    if (std::isfinite(height)) largest = std::max(largest, std::abs(static_cast<double>(height)));
+  }
+  const double rounding = 4.0 * largest * static_cast<double>(std::numeric_limits<float>::epsilon());
+  const std::vector<double> steps = HeightSteps(grid, rounding);
+  if (steps.size() < 100) return 0.0;
+  // Not the very smallest, which may be a blunder.
+  const double step = steps[steps.size() / 1000];
+  if (step < kCoarseShare * steps[steps.size() / 2]) return 0.0;
+  double seen = 0.0;
+  double multiples = 0.0;
+  for (const double value : steps) {
+    if (value > kMostSteps * step) break;
+    const double off = std::abs(value - step * std::round(value / step));
+    seen += 1.0;
+    if (off < 0.01 * value + rounding) multiples += 1.0;
+  }
+  return multiples >= kMultiples * seen ? step : 0.0;
+}
+
+}  // namespace
+
+DemQuality AssessDem(const HeightGrid& grid) {
+  DemQuality quality;
+  quality.posts = grid.heights.size();
+  for (const float height : grid.heights) quality.no_data += std::isfinite(height) ? 0 : 1;
+  quality.spikes = FindSpikes(grid);
+  quality.effective_resolution = EffectiveResolution(grid);
+  const Stripes rows = FindStripes({grid, false}, quality.effective_resolution);
+  const Stripes columns = FindStripes({grid, true}, quality.effective_resolution);
+  quality.row_stripes = rows.rms;
+  quality.rows_striped = rows.visible;
+  quality.column_stripes = columns.rms;
+  quality.columns_striped = columns.visible;
+  quality.quantisation = FindQuantisation(grid);
+  return quality;
+}
+
+}  // namespace regolith
