@@ -85,67 +85,102 @@ void FillHoles(HeightGrid* grid) {
 
 // --- Stripes --------------------------------------------------------------------------------
 
-constexpr int kNeighbours = 4;         // lines on either side that say where a line should lie
 constexpr int kHalfWindow = 32;        // posts along a line over which its offset is the same
 constexpr double kClampSpreads = 3.0;  // relief beyond them says nothing about an offset
 constexpr double kSigmaPerMedian = 1.4826;
+constexpr double kOffsetVariances = 1.5;  // of a line less the mean of its neighbours
+constexpr double kLeastNoise = 0.02;      // of the stripes' variance, or the solution runs away
 
-// A line's posts less what the lines on both sides lead to expect; NaN where that is not known.
-std::vector<double> OffNeighbours(const RasterLines& lines, int line) {
-  const int reach = std::min({kNeighbours, line, lines.count() - 1 - line});
-  std::vector<double> off(static_cast<size_t>(lines.length()), static_cast<double>(kMissing));
-  for (int along = 0; along < lines.length() && reach > 0; ++along) {
-    double sum = 0.0;
-    for (int k = 1; k <= reach; ++k) {
-      sum += static_cast<double>(lines.At(line - k, along)) + lines.At(line + k, along);
+// How far lines stand off the mean of their neighbours, m, meant over windows along them; [line -
+// 1][along].
+std::vector<std::vector<double>> OffNeighbours(const RasterLines& lines) {
+  std::vector<std::vector<double>> off;
+  const auto length = static_cast<size_t>(lines.length());
+  for (int line = 1; line + 1 < lines.count(); ++line) {
+    std::vector<double> values(length);
+    for (int i = 0; i < lines.length(); ++i) {
+      const double sides = static_cast<double>(lines.At(line - 1, i)) + lines.At(line + 1, i);
+      values[static_cast<size_t>(i)] = static_cast<double>(lines.At(line, i)) - 0.5 * sides;
     }
-    off[static_cast<size_t>(along)] =
-        static_cast<double>(lines.At(line, along)) - sum / (2.0 * reach);
+    const double limit = kClampSpreads * kSigmaPerMedian * MedianMagnitude(values);
+    std::vector<double> sums(length + 1, 0.0);
+    for (size_t i = 0; i < length; ++i) sums[i + 1] = sums[i] + std::clamp(values[i], -limit, limit);
+    for (size_t i = 0; i < length; ++i) {
+      const size_t first = i > kHalfWindow ? i - kHalfWindow : 0;
+      const size_t last = std::min(length, i + kHalfWindow + 1);
+      values[i] = (sums[last] - sums[first]) / static_cast<double>(last - first);
+    }
+    off.push_back(std::move(values));
   }
   return off;
 }
 
-double SpreadOf(const std::vector<double>& values) {
-  std::vector<double> known;
-  for (const double value : values) {
-    if (std::isfinite(value)) known.push_back(value);
+// The offsets o of `count` lines that are the most likely where D o + noise = off was seen and the
+// offsets are independent: (DᵀD + noise / stripes · 1) o = Dᵀ off with the rows (-½, 1, -½) of D.
+// LDLᵀ of a matrix of five diagonals.
+class OffsetSolver {
+ public:
+  OffsetSolver(size_t count, double noise_per_stripes)
+      : diagonal_(count), first_(count, 0.0), second_(count, 0.0) {
+    for (size_t j = 0; j < count; ++j) {
+      const bool left = j >= 2;           // line j is the last of an equation
+      const bool own = j >= 1 && j + 1 < count;
+      const bool right = j + 2 < count;   // or its first
+      diagonal_[j] = noise_per_stripes + (own ? 1.0 : 0.0) + 0.25 * ((left ? 1 : 0) + (right ? 1 : 0));
+      if (j >= 1) first_[j] = -0.5 * ((own ? 1 : 0) + (j >= 2 ? 1 : 0));
+      if (j >= 2) second_[j] = 0.25;
+    }
+    for (size_t j = 1; j < count; ++j) {
+      if (j >= 2) {
+        first_[j] -= second_[j] * first_[j - 1];
+        diagonal_[j] -= second_[j] * second_[j] / diagonal_[j - 2];
+        second_[j] /= diagonal_[j - 2];
+      }
+      diagonal_[j] -= first_[j] * first_[j] / diagonal_[j - 1];
+      first_[j] /= diagonal_[j - 1];
+    }
   }
-  return known.empty() ? 0.0 : kSigmaPerMedian * MedianMagnitude(std::move(known));
-}
 
-// The part of a line's offset that windows along it share, shrunk (Wiener 1949) by what noise and
-// relief would leave of themselves in such a mean.
-std::vector<double> OffsetsOf(const RasterLines& lines, int line, double stripes) {
-  const std::vector<double> off = OffNeighbours(lines, line);
-  const double spread = SpreadOf(off);
-  const double limit = kClampSpreads * spread;
-  std::vector<double> sums(off.size() + 1, 0.0);
-  std::vector<double> counts(off.size() + 1, 0.0);
-  for (size_t i = 0; i < off.size(); ++i) {
-    const bool known = std::isfinite(off[i]);
-    sums[i + 1] = sums[i] + (known ? std::clamp(off[i], -limit, limit) : 0.0);
-    counts[i + 1] = counts[i] + (known ? 1.0 : 0.0);
+  std::vector<double> Solve(const std::vector<std::vector<double>>& off, size_t along) const {
+    const size_t count = diagonal_.size();
+    std::vector<double> offsets(count, 0.0);
+    for (size_t j = 1; j + 1 < count; ++j) {
+      const double value = off[j - 1][along];
+      offsets[j - 1] -= 0.5 * value;
+      offsets[j] += value;
+      offsets[j + 1] -= 0.5 * value;
+    }
+    for (size_t j = 1; j < count; ++j) {
+      offsets[j] -= first_[j] * offsets[j - 1];
+      if (j >= 2) offsets[j] -= second_[j] * offsets[j - 2];
+    }
+    for (size_t j = 0; j < count; ++j) offsets[j] /= diagonal_[j];
+    for (size_t j = count; j-- > 0;) {
+      if (j + 1 < count) offsets[j] -= first_[j + 1] * offsets[j + 1];
+      if (j + 2 < count) offsets[j] -= second_[j + 2] * offsets[j + 2];
+    }
+    return offsets;
   }
-  std::vector<double> offsets(off.size(), 0.0);
-  for (size_t i = 0; i < off.size(); ++i) {
-    const size_t first = i > kHalfWindow ? i - kHalfWindow : 0;
-    const size_t last = std::min(off.size(), i + kHalfWindow + 1);
-    const double count = counts[last] - counts[first];
-    if (count < kHalfWindow) continue;
-    const double share = stripes * stripes / (stripes * stripes + spread * spread / count);
-    offsets[i] = share * (sums[last] - sums[first]) / count;
-  }
-  return offsets;
-}
+
+ private:
+  std::vector<double> diagonal_;
+  std::vector<double> first_;   ///< below the diagonal: of lines j and j - 1
+  std::vector<double> second_;  ///< of lines j and j - 2
+};
 
 void RemoveStripes(HeightGrid* grid, bool columns, double stripes) {
-  const HeightGrid before = *grid;
-  const RasterLines lines{before, columns};
-  for (int line = 0; line < lines.count(); ++line) {
-    const std::vector<double> offsets = OffsetsOf(lines, line, stripes);
-    for (int along = 0; along < lines.length(); ++along) {
+  const RasterLines lines{*grid, columns};
+  const std::vector<std::vector<double>> off = OffNeighbours(lines);
+  std::vector<double> all;
+  for (const auto& line : off) all.insert(all.end(), line.begin(), line.end());
+  const double variance = std::pow(kSigmaPerMedian * MedianMagnitude(std::move(all)), 2);
+  const double noise = variance / (stripes * stripes) - kOffsetVariances;
+  const OffsetSolver solver(static_cast<size_t>(lines.count()), std::max(noise, kLeastNoise));
+  for (int along = 0; along < lines.length(); ++along) {
+    const std::vector<double> offsets = solver.Solve(off, static_cast<size_t>(along));
+    for (int line = 0; line < lines.count(); ++line) {
       float& height = columns ? grid->At(line, along) : grid->At(along, line);
-      height -= static_cast<float>(offsets[static_cast<size_t>(along)]);
+      height -= static_cast<float>(offsets[static_cast<size_t>(line)]);
     }
   }
 }

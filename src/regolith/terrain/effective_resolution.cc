@@ -12,18 +12,27 @@
 namespace regolith {
 namespace {
 
-constexpr int kLongestLag = 64;           // posts
+constexpr int kLongestLag = 32;           // posts
 constexpr double kLargestSample = 2.0e5;  // differences a lag
 constexpr size_t kSmallestSample = 50;
-// Self-affine relief grows with the lag to a power of at most one. With this differences' order,
-// relief smoothed to half its amplitude at 2 lags grows with this power there (measured on surfaces
-// of Hurst exponents .5 to .95, smoothed by Gaussians and interpolated from fewer posts).
-constexpr double kSmoothedPower = 1.5;
+// Self-affine relief grows with the lag to a power of at most one. Fourth differences at a lag see
+// wavelengths about twice as long; relief that is smoothed to half its amplitude there grows with
+// this power (measured on surfaces of Hurst exponents .5 to .95, smoothed by Gaussians or
+// interpolated from fewer posts).
+constexpr double kSmoothedPower = 1.45;
+// Second differences tell facets: between kinks they vanish, and so do fourth differences, which
+// only see that kinks are many.
+constexpr double kFacetPower = 1.7;
 
-// Size of the fourth differences at `lag` posts, which see wavelengths about 2 lags. The mean of
-// square roots: a few spikes do not weigh, and quantised heights still give a smooth figure.
-std::optional<double> RoughnessAt(const RasterLines& lines, int lag) {
-  const int length = lines.length() - 4 * lag;
+constexpr double kSecond[] = {1.0, -2.0, 1.0};
+constexpr double kFourth[] = {1.0, -4.0, 6.0, -4.0, 1.0};
+
+// Size of the differences at `lag` posts. The mean of square roots: a few spikes do not weigh, and
+// quantised heights still give a smooth figure.
+template <int kCount>
+std::optional<double> RoughnessAt(const RasterLines& lines, const double (&weights)[kCount],
+                                  int lag) {
+  const int length = lines.length() - (kCount - 1) * lag;
   if (length < lag) return {};
   const double all = static_cast<double>(length) * lines.count();
   const int step = std::max(1, static_cast<int>(all / kLargestSample));
@@ -31,10 +40,10 @@ std::optional<double> RoughnessAt(const RasterLines& lines, int lag) {
   size_t count = 0;
   for (int line = 0; line < lines.count(); ++line) {
     for (int i = (line * 7) % step; i < length; i += step) {
-      const double ends = static_cast<double>(lines.At(line, i)) + lines.At(line, i + 4 * lag);
-      const double sides =
-          static_cast<double>(lines.At(line, i + lag)) + lines.At(line, i + 3 * lag);
-      const double difference = ends - 4.0 * sides + 6.0 * lines.At(line, i + 2 * lag);
+      double difference = 0.0;
+      for (int k = 0; k < kCount; ++k) {
+        difference += weights[k] * static_cast<double>(lines.At(line, i + k * lag));
+      }
       if (!std::isfinite(difference)) continue;
       sum += std::sqrt(std::abs(difference));
       ++count;
@@ -44,22 +53,30 @@ std::optional<double> RoughnessAt(const RasterLines& lines, int lag) {
   return std::pow(sum / static_cast<double>(count), 2);
 }
 
+// The power with which the differences grow from `lag` to twice of it.
+template <int kCount>
+std::optional<double> PowerAt(const RasterLines& lines, const double (&weights)[kCount], int lag) {
+  const std::optional<double> fine = RoughnessAt(lines, weights, lag);
+  const std::optional<double> coarse = RoughnessAt(lines, weights, 2 * lag);
+  if (!fine || !coarse) return {};
+  return std::log2(*coarse / *fine);
+}
+
 // The lag (posts) from which on relief grows no faster than self-affine relief does.
 double LagOfTrend(const RasterLines& lines) {
-  std::optional<double> fine = RoughnessAt(lines, 1);
-  double previous_power = 0.0;
-  for (int lag = 1; lag < kLongestLag && fine; lag *= 2) {
-    const std::optional<double> coarse = RoughnessAt(lines, 2 * lag);
-    if (!coarse) return lag;
-    const double power = std::log2(*coarse / *fine);
-    if (power <= kSmoothedPower) {
+  double previous_excess = 0.0;
+  for (int lag = 1; lag <= kLongestLag; lag *= 2) {
+    const std::optional<double> power = PowerAt(lines, kFourth, lag);
+    const std::optional<double> facets = PowerAt(lines, kSecond, lag);
+    if (!power || !facets) return lag;
+    const double excess = std::max(*power - kSmoothedPower, *facets - kFacetPower);
+    if (excess <= 0.0) {
       if (lag == 1) return 1.0;
-      return 0.5 * lag * std::exp2((previous_power - kSmoothedPower) / (previous_power - power));
+      return 0.5 * lag * std::exp2(previous_excess / (previous_excess - excess));
     }
-    previous_power = power;
-    fine = coarse;
+    previous_excess = excess;
   }
-  return fine ? kLongestLag : 1.0;
+  return kLongestLag;
 }
 
 }  // namespace
