@@ -166,7 +166,7 @@ void Repair(Ground* ground) {
   ground->raster = Repaired(ground->raster, quality);
   if (quality.no_data > 0) ground->repaired.emplace_back("no_data");
   if (!quality.spikes.empty()) ground->repaired.emplace_back("spikes");
-  if (quality.Striped()) ground->repaired.emplace_back("stripes");
+  if (quality.rows.striped || quality.columns.striped) ground->repaired.emplace_back("stripes");
 }
 
 Ground ReadGround(const TerrainArguments& arguments) {
@@ -295,8 +295,9 @@ Json RasterJson(const HeightGrid& raster, const DemQuality& quality) {
   json["no_data_percent"] =
       100.0 * static_cast<double>(quality.no_data) / static_cast<double>(quality.posts);
   json["spikes"] = quality.spikes.size();
-  json["stripes_rms_m"] = {{"rows", quality.row_stripes}, {"columns", quality.column_stripes}};
-  json["striped"] = quality.Striped();
+  json["stripes_rms_m"] = {{"rows", quality.rows.offsets}, {"columns", quality.columns.offsets}};
+  json["tracks_rms_m"] = {{"rows", quality.rows.tracks}, {"columns", quality.columns.tracks}};
+  json["striped"] = quality.rows.striped || quality.columns.striped;
   json["quantisation_m"] = quality.quantisation;
   json["effective_resolution_m"] = quality.effective_resolution;
   json["lowest_m"] = lowest;
@@ -350,6 +351,17 @@ void PrintRelief(const Ground& ground) {
       StatisticName(ground), report.slope_at_1m_deg);
 }
 
+void ReportStripes(const std::string& lines, const Stripes& stripes, const std::string& advice) {
+  if (stripes.striped) {
+    LogWarning(Concatenate("stripes along ", lines, ", offsets of ", stripes.offsets, " m RMS: ",
+                           advice));
+  }
+  if (stripes.tracked) {
+    LogWarning(Concatenate("tracks along ", lines, ", rougher than the rest by ", stripes.tracks,
+                           " m RMS: they stay"));
+  }
+}
+
 // A line for each flaw that the model has.
 void ReportFlaws(const Ground& ground, bool repair) {
   const DemQuality& quality = ground.quality;
@@ -364,13 +376,8 @@ void ReportFlaws(const Ground& ground, bool repair) {
     LogWarning(Concatenate(quality.spikes.size(), " spikes, posts far off all their neighbours: ",
                            advice));
   }
-  if (quality.rows_striped) {
-    LogWarning(Concatenate("stripes along rows of ", quality.row_stripes, " m RMS: ", advice));
-  }
-  if (quality.columns_striped) {
-    LogWarning(
-        Concatenate("stripes along columns of ", quality.column_stripes, " m RMS: ", advice));
-  }
+  ReportStripes("rows", quality.rows, advice);
+  ReportStripes("columns", quality.columns, advice);
   if (quality.quantisation > 0.0) {
     LogInfo(Concatenate("heights come in steps of ", quality.quantisation, " m"));
   }

@@ -9,19 +9,23 @@
 
 namespace regolith {
 
+/// What the rows, or the columns, of a raster have that relief and noise do not account for.
+struct Stripes {
+  double offsets = 0.0;  ///< m, RMS of offsets that runs of a line share
+  double tracks = 0.0;   ///< m, RMS of the lines' roughness in excess of their neighbours'
+  bool striped = false;  ///< the offsets are no chance, and large enough to be seen
+  bool tracked = false;  ///< likewise the roughness, where offsets do not explain it
+};
+
 /// What an elevation model does not say, or says wrongly.
 struct DemQuality {
   size_t posts = 0;
-  size_t no_data = 0;              ///< posts
-  std::vector<size_t> spikes;      ///< indices of posts that stand off all their neighbours
-  double row_stripes = 0.0;        ///< m, RMS of offsets that whole runs of a row share
-  double column_stripes = 0.0;     ///< m, likewise
-  bool rows_striped = false;       ///< the offsets are no chance, and large enough to be seen
-  bool columns_striped = false;    ///< likewise
-  double quantisation = 0.0;       ///< m, step of the heights where it is coarse; else 0
+  size_t no_data = 0;          ///< posts
+  std::vector<size_t> spikes;  ///< indices of posts that stand off all their neighbours
+  Stripes rows;
+  Stripes columns;
+  double quantisation = 0.0;          ///< m, step of the heights where it is coarse; else 0
   double effective_resolution = 0.0;  ///< m, the shortest wavelength that it truly carries
-
-  bool Striped() const { return rows_striped || columns_striped; }
 };
 
 DemQuality AssessDem(const HeightGrid& grid);

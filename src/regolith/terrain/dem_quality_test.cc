@@ -61,7 +61,9 @@ TEST(DemQuality, FindsNothingWrongWithReliefAlone) {
   EXPECT_EQ(quality.posts, 65536U);
   EXPECT_EQ(quality.no_data, 0U);
   EXPECT_LE(quality.spikes.size(), 1U);
-  EXPECT_FALSE(quality.Striped());
+  for (const Stripes& stripes : {quality.rows, quality.columns}) {
+    EXPECT_FALSE(stripes.striped || stripes.tracked);
+  }
   EXPECT_EQ(quality.quantisation, 0.0);
 }
 
@@ -104,13 +106,13 @@ TEST(DemQuality, MeasuresStripesOfRowsAndOfColumns) {
     const HeightGrid clean = Rough(256);
     const HeightGrid grid = WithStripes(clean, 0.1, columns);
     const DemQuality quality = AssessDem(grid);
-    EXPECT_EQ(quality.rows_striped, !columns);
-    EXPECT_EQ(quality.columns_striped, columns);
-    EXPECT_NEAR(columns ? quality.column_stripes : quality.row_stripes, 0.1, 0.02);
+    EXPECT_EQ(quality.rows.striped, !columns);
+    EXPECT_EQ(quality.columns.striped, columns);
+    EXPECT_NEAR((columns ? quality.columns : quality.rows).offsets, 0.1, 0.02);
     const HeightGrid repaired = Repaired(grid, quality);
     EXPECT_LT(RmsDifference(repaired, clean), 0.7 * RmsDifference(grid, clean));
     const DemQuality after = AssessDem(repaired);
-    EXPECT_LT(columns ? after.column_stripes : after.row_stripes, 0.04);
+    EXPECT_LT((columns ? after.columns : after.rows).offsets, 0.04);
   }
 }
 

@@ -25,6 +25,7 @@ constexpr double kShortestSpan = 2.0;  // m
 constexpr double kKnee = 2.0;  // m, wavelength at which the exponent changes
 // Second differences a quarter of the effective resolution apart see what is added, hardly the model.
 constexpr double kJoin = 0.25;
+constexpr double kHiddenStep = 1.5;  // of the amplitude
 
 struct Profile {
   Eigen::Vector2d middle;
@@ -46,6 +47,16 @@ std::vector<Profile> DrawProfiles(const Dem& dem, const Eigen::AlignedBox2d& box
     if (dem.HasData(middle.x(), middle.y(), reach)) known.push_back(profile);
   }
   return known.size() < kFewestProfiles ? any : known;
+}
+
+// Moves profiles onto posts and along their lines: between posts the model is smoother than it is.
+void SnapToPosts(const Dem& dem, std::vector<Profile>* profiles) {
+  for (Profile& profile : *profiles) {
+    const Eigen::Vector2d post = (profile.middle + dem.half_size()) / dem.spacing();
+    profile.middle = dem.spacing() * post.array().round().matrix() - dem.half_size();
+    const bool east = std::abs(profile.way.x()) > std::abs(profile.way.y());
+    profile.way = east ? Eigen::Vector2d::UnitX() : Eigen::Vector2d::UnitY();
+  }
 }
 
 // Ground enough to see waves of the effective resolution many times.
@@ -132,15 +143,17 @@ class Continuation {
                const ReliefOptions& options, const Eigen::AlignedBox2d& box, uint64_t seed)
       : options_(options),
         resolution_(resolution),
+        model_lag_(dem.spacing() * std::round(resolution / dem.spacing())),
         seed_(seed),
         profiles_(DrawProfiles(dem, box, 1.0)) {
     const HeightFunction model = [&dem](double x, double y) { return dem.Height(x, y); };
     const HeightFunction shaped = [&](double x, double y) {
       return dem.Height(x, y) + features(x, y);
     };
-    const std::vector<Profile> wide =
-        DrawProfiles(dem, WideBox(dem, box, resolution), resolution);
-    roughness_ = Figure(options.statistic, SecondDifferences(wide, model, resolution));
+    std::vector<Profile> wide =
+        DrawProfiles(dem, WideBox(dem, box, resolution), model_lag_ + dem.spacing());
+    SnapToPosts(dem, &wide);
+    roughness_ = Figure(options.statistic, SecondDifferences(wide, model, model_lag_));
     joined_ = SecondDifferences(profiles_, shaped, kJoin * resolution);
     sloped_ = FirstDifferences(profiles_, shaped, 1.0);
     Level(profiles_, &sloped_, 1.0);
@@ -149,7 +162,7 @@ class Continuation {
   DemRelief Continue() const {
     if (resolution_ < kShortestSpan) return Joined(options_.hurst, false);
     DemRelief relief = Joined(kHighestHurst, true);
-    if (relief.report.slope_at_1m_deg >= options_.slope_deg) return relief;
+    if (relief.report.slope_at_1m_deg >= options_.slope_deg) return Softened();
     relief = Joined(kLowestHurst, true);
     if (relief.report.slope_at_1m_deg <= options_.slope_deg) return Kept(kLowestHurst, true);
     double low = kLowestHurst;
@@ -164,29 +177,42 @@ class Continuation {
 
  private:
   FractalNoise Noise(double hurst) const {
-    return {seed_, std::max(resolution_, options_.shortest_wavelength), options_.shortest_wavelength,
+    return {seed_, std::max(M_SQRT1_2 * resolution_, options_.shortest_wavelength), options_.shortest_wavelength,
             [&](double wavelength) { return Trend(wavelength, hurst, options_.hurst); }};
   }
 
   // Relief that goes on where the model ends.
   DemRelief Joined(double hurst, bool clamped) const {
     const FractalNoise noise = Noise(hurst);
-    const double lag = kJoin * resolution_;
-    const double step = Trend(2.0 * lag, hurst, options_.hurst) /
-                        Trend(2.0 * resolution_, hurst, options_.hurst);
-    const std::vector<double> rough = SecondDifferences(profiles_, Of(noise), lag);
-    return Scaled(noise, ScaleFor(options_.statistic, joined_, rough, step * roughness_), hurst,
-                  clamped);
+    return Scaled(noise, JoiningScale(noise, hurst), hurst, clamped);
   }
 
   // Relief that keeps the slopes over 1 m, wherever the model lies.
   DemRelief Kept(double hurst, bool clamped) const {
     const FractalNoise noise = Noise(hurst);
+    return Scaled(noise, KeepingScale(noise), hurst, clamped);
+  }
+
+  // The model is rougher than the statistics: relief that keeps the slopes over 1 m as far as a step
+  // in the spectrum that does not show allows.
+  DemRelief Softened() const {
+    const FractalNoise noise = Noise(kHighestHurst);
+    const double scale =
+        std::max(KeepingScale(noise), JoiningScale(noise, kHighestHurst) / kHiddenStep);
+    return Scaled(noise, scale, kHighestHurst, true);
+  }
+
+  double JoiningScale(const FractalNoise& noise, double hurst) const {
+    const double lag = kJoin * resolution_;
+    const double share = Trend(2.0 * lag, hurst, options_.hurst) /
+                         Trend(2.0 * model_lag_, hurst, options_.hurst);
+    const std::vector<double> rough = SecondDifferences(profiles_, Of(noise), lag);
+    return ScaleFor(options_.statistic, joined_, rough, share * roughness_);
+  }
+
+  double KeepingScale(const FractalNoise& noise) const {
     const std::vector<double> rough = FirstDifferences(profiles_, Of(noise), 1.0);
-    return Scaled(noise,
-                  ScaleFor(options_.statistic, sloped_, rough,
-                           std::tan(options_.slope_deg * kDegree)),
-                  hurst, clamped);
+    return ScaleFor(options_.statistic, sloped_, rough, std::tan(options_.slope_deg * kDegree));
   }
 
   DemRelief Scaled(FractalNoise noise, double scale, double hurst, bool clamped) const {
@@ -202,9 +228,10 @@ class Continuation {
 
   ReliefOptions options_;
   double resolution_;
+  double model_lag_;  // m, about the effective resolution
   uint64_t seed_;
   std::vector<Profile> profiles_;
-  double roughness_ = 0.0;      // m, of the model at its effective resolution
+  double roughness_ = 0.0;      // m, of the model over model_lag_
   std::vector<double> joined_;  // m, of model and features, just below
   std::vector<double> sloped_;  // m, over 1 m
 };

@@ -191,8 +191,8 @@ HeightGrid Repaired(const HeightGrid& grid, const DemQuality& quality) {
   HeightGrid repaired = grid;
   for (const size_t spike : quality.spikes) repaired.heights[spike] = kMissing;
   FillHoles(&repaired);
-  if (quality.rows_striped) RemoveStripes(&repaired, false, quality.row_stripes);
-  if (quality.columns_striped) RemoveStripes(&repaired, true, quality.column_stripes);
+  if (quality.rows.striped) RemoveStripes(&repaired, false, quality.rows.offsets);
+  if (quality.columns.striped) RemoveStripes(&repaired, true, quality.columns.offsets);
   return repaired;
 }
 
