@@ -353,8 +353,8 @@ void PrintRelief(const Ground& ground) {
 
 void ReportStripes(const std::string& lines, const Stripes& stripes, const std::string& advice) {
   if (stripes.striped) {
-    LogWarning(Concatenate("stripes along ", lines, ", offsets of ", stripes.offsets, " m RMS: ",
-                           advice));
+    LogWarning(
+        Concatenate("stripes along ", lines, ", offsets of ", stripes.offsets, " m RMS: ", advice));
   }
   if (stripes.tracked) {
     LogWarning(Concatenate("tracks along ", lines, ", rougher than the rest by ", stripes.tracks,
@@ -373,8 +373,8 @@ void ReportFlaws(const Ground& ground, bool repair) {
                                     "heights; --repair fills them"));
   }
   if (!quality.spikes.empty()) {
-    LogWarning(Concatenate(quality.spikes.size(), " spikes, posts far off all their neighbours: ",
-                           advice));
+    LogWarning(Concatenate(quality.spikes.size(),
+                           " spikes, posts far off all their neighbours: ", advice));
   }
   ReportStripes("rows", quality.rows, advice);
   ReportStripes("columns", quality.columns, advice);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -26,15 +27,17 @@ struct RealModel {
   const char* scenario;
   size_t fewest_spikes;
   size_t most_spikes;
-  double quantisation;            // m
-  double finest, coarsest;        // bounds on the effective resolution, pixels
+  double quantisation;  // m
+  bool rows_tracked;    // the altimeter's tracks
+  double finest;        // of the effective resolution, pixels
+  double coarsest;
 };
 
 const RealModel kModels[] = {
-    {"moon_lola_88S_10m.tif", "lunar_short", 12, 40, 0.5, 2.0, 2.5},
-    {"moon_lola_88S_10m.tif", "lunar_pole", 12, 40, 0.5, 2.0, 2.5},
-    {"mars_gale_ctx_20m.tif", "mars_short", 0, 10, 0.0, 3.0, 6.0},
-    {"marsyard_2021_0.094m.tif", "mars_short", 0, 10, 0.0, 2.0, 6.0},
+    {"moon_lola_88S_10m.tif", "lunar_short", 12, 40, 0.5, true, 2.0, 2.5},
+    {"moon_lola_88S_10m.tif", "lunar_pole", 12, 40, 0.5, true, 2.0, 2.5},
+    {"mars_gale_ctx_20m.tif", "mars_short", 0, 10, 0.0, false, 3.0, 6.0},
+    {"marsyard_2021_0.094m.tif", "mars_short", 0, 10, 0.0, false, 2.0, 6.0},
 };
 
 class RealModels : public testing::TestWithParam<RealModel> {
@@ -76,6 +79,7 @@ TEST_P(RealModels, AreAssessedWithoutFalseAlarms) {
   EXPECT_LE(quality.spikes.size(), GetParam().most_spikes);
   EXPECT_NEAR(quality.quantisation, GetParam().quantisation, 1e-6);
   EXPECT_FALSE(quality.rows.striped || quality.columns.striped);
+  EXPECT_EQ(quality.rows.tracked, GetParam().rows_tracked);
   EXPECT_GE(quality.effective_resolution, GetParam().finest * grid_.spacing);
   EXPECT_LE(quality.effective_resolution, GetParam().coarsest * grid_.spacing);
 }
@@ -83,14 +87,30 @@ TEST_P(RealModels, AreAssessedWithoutFalseAlarms) {
 TEST_P(RealModels, GoOnBelowTheirResolutionWithoutAStepInTheSpectrum) {
   const auto surface = CreateDemSurface(grid_, options_, 1);
   const SurfaceReport report = surface->Report();
-  const double lag = 0.125 * report.effective_resolution;
-  printf("%s %s eff %g H %.3f clamped %d slope %.2f of %.2f\n", GetParam().file, GetParam().scenario, report.effective_resolution, report.hurst, report.hurst_clamped, report.slope_at_1m_deg, options_.relief.slope_deg);
-  double previous = 0.0;
-  for (int k = 0; k <= 5; ++k) {
-    const double at = Roughness(*surface, options_.relief.statistic, lag * std::exp2(k));
-    // no
-    printf("  lag %.3g (%.3g L)  %.4g  local H %.2f\n", lag * std::exp2(k), .125 * std::exp2(k), at, k ? std::log2(at / previous) : 0.0);
-    previous = at;
+  const auto roughness = [&](double resolutions) {
+    return std::log(
+        Roughness(*surface, options_.relief.statistic, resolutions * report.effective_resolution));
+  };
+  const double low = roughness(0.125);
+  const double high = roughness(4.0);
+  for (int k = 1; k < 5; ++k) {
+    const double trend = low + 0.2 * k * (high - low);
+    const double factor = std::exp(std::abs(roughness(0.125 * std::exp2(k)) - trend));
+    EXPECT_LT(factor, 2.0) << "over " << 0.125 * std::exp2(k) << " effective resolutions";
+  }
+}
+
+TEST_P(RealModels, KeepTheSlopesOfTheScenarioOrSayThatTheyCannot) {
+  const SurfaceReport report = CreateDemSurface(grid_, options_, 1)->Report();
+  EXPECT_EQ(report.pixel, grid_.spacing);
+  EXPECT_GE(report.hurst, 0.3);
+  EXPECT_LE(report.hurst, 0.98);
+  if (report.effective_resolution < 2.0) {
+    EXPECT_EQ(report.hurst, options_.relief.hurst);
+  } else if (report.hurst_clamped) {
+    EXPECT_GE(report.slope_at_1m_deg, 0.99 * options_.relief.slope_deg);
+  } else {
+    EXPECT_NEAR(report.slope_at_1m_deg, options_.relief.slope_deg, 0.1);
   }
 }
 

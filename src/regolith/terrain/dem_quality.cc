@@ -23,7 +23,7 @@ double RobustSpread(std::vector<double> deviations) {
 
 // --- Spikes ---------------------------------------------------------------------------------
 
-constexpr int kBlock = 16;             // posts a side, in which the spread of residuals is taken
+constexpr int kBlock = 16;              // posts a side, in which the spread of residuals is taken
 constexpr double kSpikeSpreads = 12.0;  // from what the neighbours predict
 constexpr double kAloofSpreads = 6.0;   // from the nearest of them: summits and cliffs have company
 constexpr double kSmallestSpread = 1e-4;  // m
@@ -86,8 +86,8 @@ class LocalSpread {
   double At(int column, int row) const {
     double spread = floor_;
     for (int j = std::max(0, row / kBlock - 1); j <= std::min(rows_ - 1, row / kBlock + 1); ++j) {
-      for (int i = std::max(0, column / kBlock - 1); i <= std::min(columns_ - 1, column / kBlock + 1);
-           ++i) {
+      for (int i = std::max(0, column / kBlock - 1);
+           i <= std::min(columns_ - 1, column / kBlock + 1); ++i) {
         spread = std::max(spread, spreads_[Index(i, j)]);
       }
     }
@@ -132,11 +132,11 @@ std::vector<size_t> FindSpikes(const HeightGrid& grid) {
 
 // --- Stripes --------------------------------------------------------------------------------
 
-constexpr int kShortestRun = 8;          // posts
-constexpr double kClampSpreads = 4.0;    // beyond which a difference counts no more
-constexpr double kVisibleShare = 0.06;   // of the spread of a line against its neighbours
-constexpr double kSignificance = 5.0;    // standard errors
-constexpr double kMostPosts = 2.0e6;     // looked at
+constexpr int kShortestRun = 8;           // posts
+constexpr double kClampSpreads = 4.0;     // beyond which a difference counts no more
+constexpr double kVisibleShare = 0.06;    // of the spread of a line against its neighbours
+constexpr double kSignificance = 5.0;     // standard errors
+constexpr double kMostPosts = 2.0e6;      // looked at
 constexpr double kOffsetVariances = 1.5;  // of a line less the mean of its neighbours
 
 // Lines of posts through a raster: the steps (columns, rows) along a line, and to the next one.
@@ -232,12 +232,11 @@ struct Excess {
   bool significant = false;
 };
 
-// Noise agrees along a line by chance only, and relief agrees along rows as it does along diagonals,
-// where neither rows nor columns show.
+// Noise agrees along a line by chance only, and relief agrees along rows as it does along
+// diagonals, where neither rows nor columns show.
 Excess ExcessOf(const Shared& line, const Shared& diagonals) {
   const double square = line.square - std::max(0.0, diagonals.square);
-  return {std::max(0.0, square),
-          square > kSignificance * std::hypot(line.error, diagonals.error)};
+  return {std::max(0.0, square), square > kSignificance * std::hypot(line.error, diagonals.error)};
 }
 
 Stripes FindStripes(const HeightGrid& grid, const Direction& way, double effective_resolution) {
@@ -289,7 +288,8 @@ double FindQuantisation(const HeightGrid& grid) {
   for (const float height : grid.heights) {
     if (std::isfinite(height)) largest = std::max(largest, std::abs(static_cast<double>(height)));
   }
-  const double rounding = 4.0 * largest * static_cast<double>(std::numeric_limits<float>::epsilon());
+  const double rounding =
+      4.0 * largest * static_cast<double>(std::numeric_limits<float>::epsilon());
   const std::vector<double> steps = HeightSteps(grid, rounding);
   if (steps.size() < 100) return 0.0;
   // Not the very smallest, which may be a blunder.

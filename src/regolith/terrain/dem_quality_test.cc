@@ -175,7 +175,8 @@ TEST(DemQuality, IsCheapForTheLargestModel) {
   HeightGrid grid;
   grid.columns = grid.rows = 2500;
   Random random(1);
-  for (int i = 0; i < 2500 * 2500; ++i) grid.heights.push_back(static_cast<float>(random.Uniform()));
+  for (int i = 0; i < 2500 * 2500; ++i)
+    grid.heights.push_back(static_cast<float>(random.Uniform()));
   const auto start = std::chrono::steady_clock::now();
   const DemQuality quality = AssessDem(grid);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

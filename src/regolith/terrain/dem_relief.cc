@@ -23,7 +23,8 @@ constexpr double kWideBox = 10.0;  // effective resolutions, half of its side
 constexpr double kShortestSpan = 2.0;  // m
 // The baseline of a slope sees waves of twice its length best.
 constexpr double kKnee = 2.0;  // m, wavelength at which the exponent changes
-// Second differences a quarter of the effective resolution apart see what is added, hardly the model.
+// Second differences a quarter of the effective resolution apart see what is added, hardly the
+// model.
 constexpr double kJoin = 0.25;
 constexpr double kHiddenStep = 1.5;  // of the amplitude
 
@@ -177,7 +178,8 @@ class Continuation {
 
  private:
   FractalNoise Noise(double hurst) const {
-    return {seed_, std::max(M_SQRT1_2 * resolution_, options_.shortest_wavelength), options_.shortest_wavelength,
+    return {seed_, std::max(M_SQRT1_2 * resolution_, options_.shortest_wavelength),
+            options_.shortest_wavelength,
             [&](double wavelength) { return Trend(wavelength, hurst, options_.hurst); }};
   }
 
@@ -193,8 +195,8 @@ class Continuation {
     return Scaled(noise, KeepingScale(noise), hurst, clamped);
   }
 
-  // The model is rougher than the statistics: relief that keeps the slopes over 1 m as far as a step
-  // in the spectrum that does not show allows.
+  // The model is rougher than the statistics: relief that keeps the slopes over 1 m as far as a
+  // step in the spectrum that does not show allows.
   DemRelief Softened() const {
     const FractalNoise noise = Noise(kHighestHurst);
     const double scale =
@@ -204,8 +206,8 @@ class Continuation {
 
   double JoiningScale(const FractalNoise& noise, double hurst) const {
     const double lag = kJoin * resolution_;
-    const double share = Trend(2.0 * lag, hurst, options_.hurst) /
-                         Trend(2.0 * model_lag_, hurst, options_.hurst);
+    const double share =
+        Trend(2.0 * lag, hurst, options_.hurst) / Trend(2.0 * model_lag_, hurst, options_.hurst);
     const std::vector<double> rough = SecondDifferences(profiles_, Of(noise), lag);
     return ScaleFor(options_.statistic, joined_, rough, share * roughness_);
   }

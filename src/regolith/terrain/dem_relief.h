@@ -24,9 +24,9 @@ struct DemRelief {
 /// `features` gives (m: craters, ripples) stands there too and is counted in. Slopes are those off
 /// the plane through the box: a hillside is no roughness.
 ///
-/// Where the model ends above 2 m, the figure of slopes over 1 m in `options` is kept, and the Hurst
-/// exponent from there to the effective resolution follows from continuity with the model. Below
-/// 1 m, and throughout where the model reaches finer, the exponent is that of `options`.
+/// Where the model ends above 2 m, the figure of slopes over 1 m in `options` is kept, and the
+/// Hurst exponent from there to the effective resolution follows from continuity with the model.
+/// Below 1 m, and throughout where the model reaches finer, the exponent is that of `options`.
 DemRelief ContinueRelief(const Dem& dem, double effective_resolution,
                          const HeightFunction& features, const ReliefOptions& options,
                          const Eigen::AlignedBox2d& box, uint64_t seed);

@@ -21,16 +21,16 @@ const Eigen::AlignedBox2d kBox(Eigen::Vector2d(-300, -300), Eigen::Vector2d(300,
 HeightGrid SelfAffine(double spacing, double hurst, double slope_deg) {
   FractalNoise noise(3, 1024.0, 0.25 * spacing, hurst);
   FractalNoise fine(3, 1024.0, 0.05, hurst);
-  const double deviation = RmsDeviation(
-      [&](double x, double y) { return fine.At(x, y, 0.0); }, kBox, 1.0, 20000);
+  const double deviation =
+      RmsDeviation([&](double x, double y) { return fine.At(x, y, 0.0); }, kBox, 1.0, 20000);
   noise.Scale(std::tan(slope_deg * kDegree) / deviation);
   HeightGrid grid;
   grid.columns = grid.rows = static_cast<int>(1000.0 / spacing);
   grid.spacing = spacing;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
-      grid.heights.push_back(static_cast<float>(
-          noise.At(column * spacing - 500.0, 500.0 - row * spacing, 0.0)));
+      grid.heights.push_back(
+          static_cast<float>(noise.At(column * spacing - 500.0, 500.0 - row * spacing, 0.0)));
     }
   }
   return grid;
@@ -78,8 +78,8 @@ double SpectralStep(const Surface& surface) {
 }
 
 double SlopeOverOneMetre(const Surface& surface) {
-  return std::atan(RmsDeviation([&](double x, double y) { return surface.Height(x, y, 0.0); },
-                                kBox, 1.0, 20000)) /
+  return std::atan(RmsDeviation([&](double x, double y) { return surface.Height(x, y, 0.0); }, kBox,
+                                1.0, 20000)) /
          kDegree;
 }
 
@@ -88,7 +88,7 @@ TEST(DemRelief, FindsTheHurstExponentOfAModelThatFollowsTheStatistics) {
     for (const double spacing : {2.0, 10.0}) {
       const auto surface = CreateDemSurface(SelfAffine(spacing, hurst, 5.0), RmsOptions(5.0), 5);
       const SurfaceReport report = surface->Report();
-        EXPECT_NEAR(report.hurst, hurst, 0.06) << spacing << " m";
+      EXPECT_NEAR(report.hurst, hurst, 0.06) << spacing << " m";
       EXPECT_FALSE(report.hurst_clamped);
       EXPECT_NEAR(report.slope_at_1m_deg, 5.0, 0.1);
       EXPECT_NEAR(SlopeOverOneMetre(*surface), 5.0, 0.3);
@@ -125,8 +125,8 @@ TEST(DemRelief, LeavesAModelFinerThanOneMetreAlone) {
   EXPECT_FALSE(report.hurst_clamped);
   const Dem dem(fine);
   const Eigen::AlignedBox2d box(Eigen::Vector2d(-20, -20), Eigen::Vector2d(20, 20));
-  const double own = RmsDeviation([&](double x, double y) { return dem.Height(x, y); }, box, 1.0,
-                                  20000);
+  const double own =
+      RmsDeviation([&](double x, double y) { return dem.Height(x, y); }, box, 1.0, 20000);
   EXPECT_NEAR(std::tan(report.slope_at_1m_deg * kDegree), own, 0.1 * own);
 }
 

@@ -73,7 +73,8 @@ void FillHoles(HeightGrid* grid) {
   FillHoles(&half);
   const auto columns = static_cast<size_t>(grid->columns);
   for (const size_t i : holes) {
-    grid->heights[i] = half.At(static_cast<int>(i % columns) / 2, static_cast<int>(i / columns) / 2);
+    grid->heights[i] =
+        half.At(static_cast<int>(i % columns) / 2, static_cast<int>(i / columns) / 2);
   }
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (const size_t i : holes) {
@@ -104,7 +105,8 @@ std::vector<std::vector<double>> OffNeighbours(const RasterLines& lines) {
     }
     const double limit = kClampSpreads * kSigmaPerMedian * MedianMagnitude(values);
     std::vector<double> sums(length + 1, 0.0);
-    for (size_t i = 0; i < length; ++i) sums[i + 1] = sums[i] + std::clamp(values[i], -limit, limit);
+    for (size_t i = 0; i < length; ++i)
+      sums[i + 1] = sums[i] + std::clamp(values[i], -limit, limit);
     for (size_t i = 0; i < length; ++i) {
       const size_t first = i > kHalfWindow ? i - kHalfWindow : 0;
       const size_t last = std::min(length, i + kHalfWindow + 1);
@@ -123,10 +125,11 @@ class OffsetSolver {
   OffsetSolver(size_t count, double noise_per_stripes)
       : diagonal_(count), first_(count, 0.0), second_(count, 0.0) {
     for (size_t j = 0; j < count; ++j) {
-      const bool left = j >= 2;           // line j is the last of an equation
+      const bool left = j >= 2;  // line j is the last of an equation
       const bool own = j >= 1 && j + 1 < count;
-      const bool right = j + 2 < count;   // or its first
-      diagonal_[j] = noise_per_stripes + (own ? 1.0 : 0.0) + 0.25 * ((left ? 1 : 0) + (right ? 1 : 0));
+      const bool right = j + 2 < count;  // or its first
+      diagonal_[j] =
+          noise_per_stripes + (own ? 1.0 : 0.0) + 0.25 * ((left ? 1 : 0) + (right ? 1 : 0));
       if (j >= 1) first_[j] = -0.5 * ((own ? 1 : 0) + (j >= 2 ? 1 : 0));
       if (j >= 2) second_[j] = 0.25;
     }
