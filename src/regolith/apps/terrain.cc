@@ -167,6 +167,7 @@ void Repair(Ground* ground) {
   if (quality.no_data > 0) ground->repaired.emplace_back("no_data");
   if (!quality.spikes.empty()) ground->repaired.emplace_back("spikes");
   if (quality.rows.striped || quality.columns.striped) ground->repaired.emplace_back("stripes");
+  if (quality.rows.tracked || quality.columns.tracked) ground->repaired.emplace_back("tracks");
 }
 
 Ground ReadGround(const TerrainArguments& arguments) {
@@ -297,7 +298,6 @@ Json RasterJson(const HeightGrid& raster, const DemQuality& quality) {
   json["spikes"] = quality.spikes.size();
   json["stripes_rms_m"] = {{"rows", quality.rows.offsets}, {"columns", quality.columns.offsets}};
   json["tracks_rms_m"] = {{"rows", quality.rows.tracks}, {"columns", quality.columns.tracks}};
-  json["striped"] = quality.rows.striped || quality.columns.striped;
   json["quantisation_m"] = quality.quantisation;
   json["effective_resolution_m"] = quality.effective_resolution;
   json["lowest_m"] = lowest;
@@ -358,7 +358,7 @@ void ReportStripes(const std::string& lines, const Stripes& stripes, const std::
   }
   if (stripes.tracked) {
     LogWarning(Concatenate("tracks along ", lines, ", rougher than the rest by ", stripes.tracks,
-                           " m RMS: they stay"));
+                           " m RMS: ", advice));
   }
 }
 

@@ -30,8 +30,8 @@ struct DemQuality {
 
 DemQuality AssessDem(const HeightGrid& grid);
 
-/// The same raster with stripes taken out, and spikes and posts without data replaced by a membrane
-/// that hangs on the posts around them.
+/// The same raster with stripes and tracks taken out, and spikes and posts without data replaced by
+/// a membrane that hangs on the posts around them.
 HeightGrid Repaired(const HeightGrid& grid, const DemQuality& quality);
 
 }  // namespace regolith

@@ -116,6 +116,26 @@ TEST(DemQuality, MeasuresStripesOfRowsAndOfColumns) {
   }
 }
 
+TEST(DemQuality, FindsRoughTracksAndSmoothsThem) {
+  for (const bool columns : {false, true}) {
+    const HeightGrid clean = Rough(256);
+    HeightGrid grid = clean;
+    Random random(6);
+    for (int line = 12; line < 250; line += 24) {
+      for (int along = 0; along < 256; ++along) {
+        (columns ? grid.At(line, along) : grid.At(along, line)) +=
+            static_cast<float>(random.Gaussian(0.0, 0.8));
+      }
+    }
+    const DemQuality quality = AssessDem(grid);
+    EXPECT_EQ(quality.rows.tracked, !columns);
+    EXPECT_EQ(quality.columns.tracked, columns);
+    EXPECT_FALSE(quality.rows.striped || quality.columns.striped);
+    const HeightGrid repaired = Repaired(grid, quality);
+    EXPECT_LT(RmsDifference(repaired, clean), 0.5 * RmsDifference(grid, clean));
+  }
+}
+
 TEST(DemQuality, FindsTheStepOfCoarseHeightsOnly) {
   HeightGrid coarse = Rough(256);
   HeightGrid fine = coarse;

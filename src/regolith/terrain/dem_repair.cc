@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -92,29 +93,43 @@ constexpr double kSigmaPerMedian = 1.4826;
 constexpr double kOffsetVariances = 1.5;  // of a line less the mean of its neighbours
 constexpr double kLeastNoise = 0.02;      // of the stripes' variance, or the solution runs away
 
-// How far lines stand off the mean of their neighbours, m, meant over windows along them; [line -
-// 1][along].
-std::vector<std::vector<double>> OffNeighbours(const RasterLines& lines) {
-  std::vector<std::vector<double>> off;
-  const auto length = static_cast<size_t>(lines.length());
+using Values = std::vector<std::vector<double>>;  // of a line, of a post along it
+
+// How far each post stands off the mean of the lines on both sides, m; zero on the outermost lines.
+Values OffNeighbours(const RasterLines& lines) {
+  Values off(static_cast<size_t>(lines.count()),
+             std::vector<double>(static_cast<size_t>(lines.length()), 0.0));
   for (int line = 1; line + 1 < lines.count(); ++line) {
-    std::vector<double> values(length);
+    double* value = off[static_cast<size_t>(line)].data();
     for (int i = 0; i < lines.length(); ++i) {
       const double sides = static_cast<double>(lines.At(line - 1, i)) + lines.At(line + 1, i);
-      values[static_cast<size_t>(i)] = static_cast<double>(lines.At(line, i)) - 0.5 * sides;
+      *value++ = static_cast<double>(lines.At(line, i)) - 0.5 * sides;
     }
-    const double limit = kClampSpreads * kSigmaPerMedian * MedianMagnitude(values);
-    std::vector<double> sums(length + 1, 0.0);
-    for (size_t i = 0; i < length; ++i)
-      sums[i + 1] = sums[i] + std::clamp(values[i], -limit, limit);
-    for (size_t i = 0; i < length; ++i) {
-      const size_t first = i > kHalfWindow ? i - kHalfWindow : 0;
-      const size_t last = std::min(length, i + kHalfWindow + 1);
-      values[i] = (sums[last] - sums[first]) / static_cast<double>(last - first);
-    }
-    off.push_back(std::move(values));
   }
   return off;
+}
+
+// Means over the window around each post of a line.
+std::vector<double> WindowMeans(const std::vector<double>& values) {
+  const size_t length = values.size();
+  std::vector<double> sums(length + 1, 0.0);
+  for (size_t i = 0; i < length; ++i) sums[i + 1] = sums[i] + values[i];
+  std::vector<double> means(length);
+  for (size_t i = 0; i < length; ++i) {
+    const size_t first = i > kHalfWindow ? i - kHalfWindow : 0;
+    const size_t last = std::min(length, i + kHalfWindow + 1);
+    means[i] = (sums[last] - sums[first]) / static_cast<double>(last - first);
+  }
+  return means;
+}
+
+// What windows along a line share.
+void Average(Values* off) {
+  for (std::vector<double>& line : *off) {
+    const double limit = kClampSpreads * kSigmaPerMedian * MedianMagnitude(line);
+    for (double& value : line) value = std::clamp(value, -limit, limit);
+    line = WindowMeans(line);
+  }
 }
 
 // The offsets o of `count` lines that are the most likely where D o + noise = off was seen and the
@@ -144,11 +159,11 @@ class OffsetSolver {
     }
   }
 
-  std::vector<double> Solve(const std::vector<std::vector<double>>& off, size_t along) const {
+  std::vector<double> Solve(const Values& off, size_t along) const {
     const size_t count = diagonal_.size();
     std::vector<double> offsets(count, 0.0);
     for (size_t j = 1; j + 1 < count; ++j) {
-      const double value = off[j - 1][along];
+      const double value = off[j][along];
       offsets[j - 1] -= 0.5 * value;
       offsets[j] += value;
       offsets[j + 1] -= 0.5 * value;
@@ -173,7 +188,8 @@ class OffsetSolver {
 
 void RemoveStripes(HeightGrid* grid, bool columns, double stripes) {
   const RasterLines lines{*grid, columns};
-  const std::vector<std::vector<double>> off = OffNeighbours(lines);
+  Values off = OffNeighbours(lines);
+  Average(&off);
   std::vector<double> all;
   for (const auto& line : off) all.insert(all.end(), line.begin(), line.end());
   const double variance = std::pow(kSigmaPerMedian * MedianMagnitude(std::move(all)), 2);
@@ -188,6 +204,47 @@ void RemoveStripes(HeightGrid* grid, bool columns, double stripes) {
   }
 }
 
+// --- Tracks ---------------------------------------------------------------------------------
+
+constexpr double kTrackRatio = 1.6;  // of a line's roughness to those beside it
+constexpr double kEchoRatio = 0.75;  // a line next to a track looks half as rough as the track
+constexpr int kBeside[] = {-8, -6, -4, 4, 6, 8};  // lines
+
+double RoughnessBeside(const Values& roughness, size_t line, size_t along) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const int k : kBeside) {
+    const auto other = static_cast<int64_t>(line) + k;
+    if (other < 1 || other + 1 >= static_cast<int64_t>(roughness.size())) continue;
+    sum += roughness[static_cast<size_t>(other)][along];
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : roughness[line][along];
+}
+
+// Takes out of rough lines what makes them rougher than those beside them (Wiener 1949).
+void RemoveTracks(HeightGrid* grid, bool columns) {
+  const RasterLines lines{*grid, columns};
+  const Values off = OffNeighbours(lines);
+  Values roughness = off;
+  for (std::vector<double>& line : roughness) {
+    for (double& value : line) value = std::abs(value);
+    line = WindowMeans(line);
+  }
+  for (size_t line = 1; line + 1 < off.size(); ++line) {
+    for (size_t along = 0; along < off[line].size(); ++along) {
+      const double own = roughness[line][along];
+      const double beside = RoughnessBeside(roughness, line, along);
+      const double next = std::max(roughness[line - 1][along], roughness[line + 1][along]);
+      if (own <= kTrackRatio * beside || own <= kEchoRatio * next) continue;
+      const auto at = static_cast<int>(along);
+      const auto number = static_cast<int>(line);
+      float& height = columns ? grid->At(number, at) : grid->At(at, number);
+      height -= static_cast<float>((1.0 - std::pow(beside / own, 2)) * off[line][along]);
+    }
+  }
+}
+
 }  // namespace
 
 HeightGrid Repaired(const HeightGrid& grid, const DemQuality& quality) {
@@ -196,6 +253,8 @@ HeightGrid Repaired(const HeightGrid& grid, const DemQuality& quality) {
   FillHoles(&repaired);
   if (quality.rows.striped) RemoveStripes(&repaired, false, quality.rows.offsets);
   if (quality.columns.striped) RemoveStripes(&repaired, true, quality.columns.offsets);
+  if (quality.rows.tracked) RemoveTracks(&repaired, false);
+  if (quality.columns.tracked) RemoveTracks(&repaired, true);
   return repaired;
 }
 
