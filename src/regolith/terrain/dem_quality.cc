@@ -27,6 +27,7 @@ constexpr int kBlock = 16;              // posts a side, in which the spread of 
 constexpr double kSpikeSpreads = 12.0;  // from what the neighbours predict
 constexpr double kAloofSpreads = 6.0;   // from the nearest of them: summits and cliffs have company
 constexpr double kSmallestSpread = 1e-4;  // m
+constexpr int kPasses = 4;
 
 struct Residual {
   float off = kMissing;    // m, from what the neighbours predict
@@ -103,32 +104,75 @@ class LocalSpread {
   double floor_;
 };
 
-std::vector<size_t> FindSpikes(const HeightGrid& grid) {
-  std::vector<Residual> residuals(grid.heights.size());
-  const auto index = [&](int column, int row) {
-    return static_cast<size_t>(row) * static_cast<size_t>(grid.columns) +
-           static_cast<size_t>(column);
-  };
-  for (int row = 1; row + 1 < grid.rows; ++row) {
-    for (int column = 1; column + 1 < grid.columns; ++column) {
-      residuals[index(column, row)] = ResidualOf(grid, column, row);
+class SpikeFinder {
+ public:
+  explicit SpikeFinder(const HeightGrid& grid) : grid_(grid), spread_(grid, Residuals()) {}
+
+  // Beside a spike may stand a lower one, which comes out once that is gone.
+  std::vector<size_t> Find() {
+    std::vector<size_t> found;
+    for (size_t i = 0; i < grid_.heights.size(); ++i) {
+      if (IsSpike(i)) found.push_back(i);
     }
+    std::vector<size_t> spikes = found;
+    for (int pass = 1; pass < kPasses && !found.empty(); ++pass) {
+      for (const size_t i : found) grid_.heights[i] = kMissing;
+      found = Beside(found);
+      spikes.insert(spikes.end(), found.begin(), found.end());
+    }
+    std::sort(spikes.begin(), spikes.end());
+    return spikes;
   }
-  const LocalSpread spread(grid, residuals);
-  std::vector<size_t> spikes;
-  for (int row = 1; row + 1 < grid.rows; ++row) {
-    for (int column = 1; column + 1 < grid.columns; ++column) {
-      const Residual& residual = residuals[index(column, row)];
-      if (!(static_cast<double>(residual.aloof) > kAloofSpreads * kSmallestSpread)) continue;
-      const double local = spread.At(column, row);
-      if (std::abs(static_cast<double>(residual.off)) > kSpikeSpreads * local &&
-          static_cast<double>(residual.aloof) > kAloofSpreads * local) {
-        spikes.push_back(index(column, row));
+
+ private:
+  std::vector<Residual> Residuals() const {
+    std::vector<Residual> residuals;
+    residuals.reserve(grid_.heights.size());
+    for (size_t i = 0; i < grid_.heights.size(); ++i) residuals.push_back(ResidualAt(i));
+    return residuals;
+  }
+
+  int ColumnOf(size_t index) const {
+    return static_cast<int>(index % static_cast<size_t>(grid_.columns));
+  }
+  int RowOf(size_t index) const {
+    return static_cast<int>(index / static_cast<size_t>(grid_.columns));
+  }
+
+  Residual ResidualAt(size_t index) const {
+    const int column = ColumnOf(index);
+    const int row = RowOf(index);
+    if (column == 0 || row == 0 || column + 1 == grid_.columns || row + 1 == grid_.rows) return {};
+    return ResidualOf(grid_, column, row);
+  }
+
+  bool IsSpike(size_t index) const {
+    const Residual residual = ResidualAt(index);
+    const auto aloof = static_cast<double>(residual.aloof);
+    if (!(aloof > kAloofSpreads * kSmallestSpread)) return false;
+    const double local = spread_.At(ColumnOf(index), RowOf(index));
+    return std::abs(static_cast<double>(residual.off)) > kSpikeSpreads * local &&
+           aloof > kAloofSpreads * local;
+  }
+
+  std::vector<size_t> Beside(const std::vector<size_t>& places) const {
+    std::vector<size_t> found;
+    const auto columns = static_cast<size_t>(grid_.columns);
+    for (const size_t place : places) {
+      for (const size_t row : {place - columns, place, place + columns}) {
+        for (const size_t i : {row - 1, row, row + 1}) {
+          if (IsSpike(i)) found.push_back(i);
+        }
       }
     }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
   }
-  return spikes;
-}
+
+  HeightGrid grid_;  // without the spikes found so far
+  LocalSpread spread_;
+};
 
 // --- Stripes --------------------------------------------------------------------------------
 
@@ -312,7 +356,7 @@ DemQuality AssessDem(const HeightGrid& grid) {
   DemQuality quality;
   quality.posts = grid.heights.size();
   for (const float height : grid.heights) quality.no_data += std::isfinite(height) ? 0 : 1;
-  quality.spikes = FindSpikes(grid);
+  quality.spikes = SpikeFinder(grid).Find();
   quality.effective_resolution = EffectiveResolution(grid);
   quality.rows = FindStripes(grid, kRows, quality.effective_resolution);
   quality.columns = FindStripes(grid, kColumns, quality.effective_resolution);
