@@ -5,17 +5,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "regolith/terrain/dem_stripes.h"
 #include "regolith/terrain/height_grid.h"
 
 namespace regolith {
-
-/// What the rows, or the columns, of a raster have that relief and noise do not account for.
-struct Stripes {
-  double offsets = 0.0;  ///< m, RMS of offsets that runs of a line share
-  double tracks = 0.0;   ///< m, RMS of the lines' roughness in excess of their neighbours'
-  bool striped = false;  ///< the offsets are no chance, and large enough to be seen
-  bool tracked = false;  ///< likewise the roughness, where offsets do not explain it
-};
 
 /// What an elevation model does not say, or says wrongly.
 struct DemQuality {

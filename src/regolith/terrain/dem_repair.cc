@@ -87,9 +87,8 @@ void FillHoles(HeightGrid* grid) {
 
 // --- Stripes --------------------------------------------------------------------------------
 
-constexpr int kHalfWindow = 32;        // posts along a line over which its offset is the same
-constexpr double kClampSpreads = 3.0;  // relief beyond them says nothing about an offset
-constexpr double kSigmaPerMedian = 1.4826;
+constexpr int kHalfWindow = 32;           // posts along a line over which its offset is the same
+constexpr double kClampSpreads = 3.0;     // relief beyond them says nothing about an offset
 constexpr double kOffsetVariances = 1.5;  // of a line less the mean of its neighbours
 constexpr double kLeastNoise = 0.02;      // of the stripes' variance, or the solution runs away
 
@@ -126,7 +125,7 @@ std::vector<double> WindowMeans(const std::vector<double>& values) {
 // What windows along a line share.
 void Average(Values* off) {
   for (std::vector<double>& line : *off) {
-    const double limit = kClampSpreads * kSigmaPerMedian * MedianMagnitude(line);
+    const double limit = kClampSpreads * RobustSigma(line);
     for (double& value : line) value = std::clamp(value, -limit, limit);
     line = WindowMeans(line);
   }
@@ -192,7 +191,7 @@ void RemoveStripes(HeightGrid* grid, bool columns, double stripes) {
   Average(&off);
   std::vector<double> all;
   for (const auto& line : off) all.insert(all.end(), line.begin(), line.end());
-  const double variance = std::pow(kSigmaPerMedian * MedianMagnitude(std::move(all)), 2);
+  const double variance = std::pow(RobustSigma(std::move(all)), 2);
   const double noise = variance / (stripes * stripes) - kOffsetVariances;
   const OffsetSolver solver(static_cast<size_t>(lines.count()), std::max(noise, kLeastNoise));
   for (int along = 0; along < lines.length(); ++along) {
