@@ -344,11 +344,14 @@ void PrintRelief(const Ground& ground) {
                 StatisticName(ground), report.slope_at_1m_deg);
     return;
   }
+  const char* const bound =
+      report.hurst > 0.5 ? " (a bound: the model is rougher)" : " (a bound: the model is smoother)";
+  const ReliefOptions& options = ground.options.terrain.relief;
   std::printf(
-      "relief below %.3g m is added: Hurst exponent %.2f%s, %s slope over 1 m %.2f degrees\n",
-      report.effective_resolution, report.hurst,
-      report.hurst_clamped ? " (a bound: the model does not meet the statistics)" : "",
-      StatisticName(ground), report.slope_at_1m_deg);
+      "relief below %.3g m is added: Hurst exponent %.2f%s, %s slope over 1 m %.2f degrees "
+      "(statistics: %.2f and %.2f)\n",
+      report.effective_resolution, report.hurst, report.hurst_clamped ? bound : "",
+      StatisticName(ground), report.slope_at_1m_deg, options.hurst, options.slope_deg);
 }
 
 void ReportStripes(const std::string& lines, const Stripes& stripes, const std::string& advice) {
