@@ -58,6 +58,9 @@ class Exports(ProgramTest):
         self.assertTrue(self.summary["complete"])
         self.assertAlmostEqual(self.summary["slopes"]["1_m"]["median_deg"], 4.0, delta=0.6)
         self.assertEqual(self.summary["raster"]["pixel_m"], 0.25)
+        self.assertEqual(self.summary["relief"]["hurst"], 0.76)
+        self.assertEqual(self.summary["relief"]["slope_at_1m_deg"], 4.0)
+        self.assertEqual(self.summary["repaired"], [])
         for name in ("terrain.tif", "terrain.yaml", "preview.png", "heightmap.png", "terrain.mtl"):
             self.assertGreater((self.out / name).stat().st_size, 50, name)
         self.assertEqual(list(self.out.rglob("*.tmp")), [])
@@ -104,6 +107,77 @@ class Exports(ProgramTest):
         self.assertEqual(expanded, flat(ElementTree.parse(self.out / "rover.urdf").getroot()))
 
 
+class FlawedModel(ProgramTest):
+    """A model of which every flaw is known."""
+
+    SIZE = 200
+    PIXEL = 5.0
+    SPIKES = 12
+    HOLE = (60, 90, 20)  # row, column, side
+    STRIPES = 0.3  # m
+
+    def setUp(self):
+        super().setUp()
+        random = numpy.random.default_rng(4)
+        wave = numpy.fft.fftfreq(2 * self.SIZE)
+        radius = numpy.hypot(*numpy.meshgrid(wave, wave))
+        radius[0, 0] = numpy.inf
+        spectrum = numpy.fft.fft2(random.standard_normal(radius.shape)) * radius**-1.8
+        heights = numpy.real(numpy.fft.ifft2(spectrum))[:self.SIZE, :self.SIZE]
+        heights *= 0.5 / numpy.std(numpy.diff(heights))
+        heights += random.normal(0.0, self.STRIPES, (self.SIZE, 1))
+        for k in range(self.SPIKES):
+            heights[15 + 14 * k, 10 + (37 * k) % 180] += 25.0 * (-1)**k
+        row, column, side = self.HOLE
+        heights[row:row + side, column:column + side] = -9999.0
+        self.dem = self.folder / "flawed.asc"
+        header = (f"ncols {self.SIZE}\nnrows {self.SIZE}\nxllcorner 0\nyllcorner 0\ncellsize {self.PIXEL}\n"
+                  "NODATA_value -9999\n")
+        self.dem.write_text(header + "\n".join(" ".join(f"{z:.4f}" for z in line) for line in heights) + "\n")
+
+    def terrain(self, dem, name, *options):
+        out = self.folder / name
+        result = call("terrain", "--dem", dem, "--out", out, *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads((out / "summary.json").read_text()), result.stdout + result.stderr
+
+    def test_flaws_are_reported_and_left(self):
+        summary, text = self.terrain(self.dem, "as_delivered")
+        raster = summary["raster"]
+        self.assertEqual(raster["no_data"], self.HOLE[2]**2)
+        self.assertAlmostEqual(raster["no_data_percent"], 1.0, delta=1e-6)
+        self.assertAlmostEqual(raster["spikes"], self.SPIKES, delta=1)
+        self.assertAlmostEqual(raster["stripes_rms_m"]["rows"], self.STRIPES, delta=0.2 * self.STRIPES)
+        self.assertLess(raster["stripes_rms_m"]["columns"], 0.2 * self.STRIPES)
+        self.assertEqual(raster["quantisation_m"], 0)
+        self.assertAlmostEqual(raster["effective_resolution_m"], 2.0 * self.PIXEL, delta=self.PIXEL)
+        self.assertEqual(summary["repaired"], [])
+        for word in ("without data", "spikes", "stripes along rows", "--repair"):
+            self.assertIn(word, text)
+        self.assertNotIn("stripes along columns", text)
+        again, _ = self.terrain(self.folder / "as_delivered" / "terrain.tif", "again")
+        self.assertEqual(again["raster"]["no_data"], raster["no_data"])
+        self.assertEqual(again["raster"]["spikes"], raster["spikes"])
+
+    def test_flaws_are_repaired_on_request(self):
+        summary, _ = self.terrain(self.dem, "repaired", "--repair")
+        self.assertEqual(summary["repaired"], ["no_data", "spikes", "stripes"])
+        self.assertEqual(summary["raster"]["no_data"], self.HOLE[2]**2)
+        after, _ = self.terrain(self.folder / "repaired" / "terrain.tif", "again")
+        self.assertEqual(after["raster"]["no_data"], 0)
+        self.assertLessEqual(after["raster"]["spikes"], 1)
+        self.assertLess(after["raster"]["stripes_rms_m"]["rows"], 0.4 * self.STRIPES)
+
+    def test_relief_below_the_pixels_is_reported(self):
+        summary, text = self.terrain(self.dem, "relief", "--statistics", "mars")
+        relief = summary["relief"]
+        self.assertEqual(relief["pixel_m"], self.PIXEL)
+        self.assertEqual(relief["statistic"], "rms")
+        self.assertTrue(0.3 <= relief["hurst"] <= 0.98, relief)
+        self.assertGreaterEqual(relief["effective_resolution_m"], 2.0 * self.PIXEL)
+        self.assertIn("Hurst exponent", text)
+
+
 class BadInput(ProgramTest):
     def terrain(self, *arguments):
         return call("terrain", *arguments, "--out", self.folder / "out")
@@ -138,6 +212,10 @@ class RealModels(ProgramTest):
             if path.name.startswith("moon_"):
                 self.assertEqual(summary["planet"], "moon")
                 self.assertAlmostEqual(summary["raster"]["pixel_m"], 10.0, delta=0.1)
+                self.assertAlmostEqual(summary["raster"]["spikes"], 20, delta=10)
+                self.assertEqual(summary["raster"]["quantisation_m"], 0.5)
+                self.assertIn("tracks along rows", result.stderr)
+            self.assertGreaterEqual(summary["relief"]["effective_resolution_m"], 2 * summary["raster"]["pixel_m"])
 
     def test_a_crop_beyond_the_raster_is_refused(self):
         result = call("terrain", "--dem", DATA / "dem" / "moon_lola_88S_10m.tif", "--crop", 10, 10, 400, "--out",

@@ -75,7 +75,8 @@ void AddTerrain(CLI::App& program, std::map<CLI::App*, Command>& commands) {
       ->delimiter(',')
       ->type_name("LIST");
   app->add_option("--seed", arguments->seed, "Another seed is another world")->type_name("N");
-  app->add_flag("--repair", arguments->repair, "Fill what the elevation model lacks");
+  app->add_flag("--repair", arguments->repair,
+                "Fill holes of the elevation model, take out its spikes and stripes");
   AddSettings(app, *arguments);
   AddOutput(app, *arguments);
   app->footer(

@@ -25,6 +25,7 @@
 #include "regolith/io/raster.h"
 #include "regolith/io/tum.h"
 #include "regolith/sim/simulator.h"
+#include "regolith/terrain/dem_quality.h"
 
 namespace regolith {
 namespace {
@@ -57,6 +58,11 @@ std::unique_ptr<Simulator> MakeSimulator(const SimulateArguments& arguments,
                                          const ScenarioOptions& options, ThreadPool* pool) {
   if (arguments.dem.empty()) return Simulator::Create(options, nullptr, pool);
   const HeightGrid dem = ReadHeights(arguments.dem);
+  const size_t spikes = AssessDem(dem).spikes.size();
+  if (spikes > 0) {
+    LogWarning(Concatenate(arguments.dem, ": ", spikes,
+                           " spikes stay in the ground; regolith terrain --repair takes them out"));
+  }
   try {
     return Simulator::Create(options, &dem, pool);
   } catch (const InputError& error) {

@@ -32,6 +32,7 @@
 #include "regolith/io/atomic_file.h"
 #include "regolith/io/image_file.h"
 #include "regolith/io/raster.h"
+#include "regolith/terrain/dem_quality.h"
 #include "regolith/terrain/surface.h"
 
 namespace regolith {
@@ -123,24 +124,12 @@ ScenarioOptions ResolvePlanet(const TerrainArguments& arguments, const std::stri
   return options;
 }
 
-// What the elevation model does not say, or says wrongly.
-struct RasterFindings {
-  size_t posts = 0;
-  size_t no_data = 0;
-};
-
-RasterFindings Examine(const HeightGrid& grid) {
-  RasterFindings findings;
-  findings.posts = grid.heights.size();
-  for (const float height : grid.heights) findings.no_data += std::isfinite(height) ? 0 : 1;
-  return findings;
-}
-
 // Ground as a raster and as a surface, and how their frames lie to each other.
 struct Ground {
   ScenarioOptions options;
   HeightGrid raster;
-  RasterFindings findings;
+  DemQuality quality;                 ///< of the raster as delivered
+  std::vector<std::string> repaired;  ///< what was done to it
   std::unique_ptr<Surface> surface;
   Eigen::Vector2d centre =
       Eigen::Vector2d::Zero();  ///< m, frame of the surface: the exports' middle
@@ -172,13 +161,23 @@ double HeightShift(const HeightGrid& raster, const Surface& surface) {
   return count > 0 ? sum / count : 0.0;
 }
 
+void Repair(Ground* ground) {
+  const DemQuality& quality = ground->quality;
+  ground->raster = Repaired(ground->raster, quality);
+  if (quality.no_data > 0) ground->repaired.emplace_back("no_data");
+  if (!quality.spikes.empty()) ground->repaired.emplace_back("spikes");
+  if (quality.rows.striped || quality.columns.striped) ground->repaired.emplace_back("stripes");
+  if (quality.rows.tracked || quality.columns.tracked) ground->repaired.emplace_back("tracks");
+}
+
 Ground ReadGround(const TerrainArguments& arguments) {
   Ground ground;
   ground.raster = ReadHeights(arguments.dem, CropOf(arguments));
   const std::string planet =
       arguments.statistics.empty() ? BodyOf(ground.raster) : arguments.statistics;
   ground.options = ResolvePlanet(arguments, planet);
-  ground.findings = Examine(ground.raster);
+  ground.quality = AssessDem(ground.raster);
+  if (arguments.repair) Repair(&ground);
   try {
     ground.surface = CreateDemSurface(ground.raster, ground.options.terrain, ground.options.seed);
   } catch (const InputError& error) {
@@ -229,7 +228,7 @@ Ground GenerateGround(const TerrainArguments& arguments, ThreadPool* pool) {
       raster.heights.push_back(static_cast<float>(posts.Height(i, j)));
     }
   }
-  ground.findings = Examine(raster);
+  ground.quality.posts = raster.heights.size();
   return ground;
 }
 
@@ -239,27 +238,6 @@ Ground MakeGround(const TerrainArguments& arguments, ThreadPool* pool) {
   ground.side = raster.spacing * (std::min(raster.columns, raster.rows) - 1);
   ground.raster_centre = MiddleOf(raster);
   return ground;
-}
-
-// Breadth-first from what is known, so that a hole takes the height of a nearest post.
-void FillNoData(HeightGrid* grid) {
-  std::vector<size_t> front;
-  for (size_t i = 0; i < grid->heights.size(); ++i) {
-    if (std::isfinite(grid->heights[i])) front.push_back(i);
-  }
-  const auto columns = static_cast<size_t>(grid->columns);
-  for (size_t head = 0; head < front.size(); ++head) {
-    const size_t i = front[head];
-    const auto visit = [&](bool inside, size_t neighbour) {
-      if (!inside || std::isfinite(grid->heights[neighbour])) return;
-      grid->heights[neighbour] = grid->heights[i];
-      front.push_back(neighbour);
-    };
-    visit(i % columns > 0, i - 1);
-    visit(i % columns + 1 < columns, i + 1);
-    visit(i >= columns, i - columns);
-    visit(i + columns < grid->heights.size(), i + columns);
-  }
 }
 
 // Slopes of profiles in all directions at seeded places; holes, which a surface fills, are left
@@ -272,7 +250,7 @@ std::vector<double> SampleSlopes(const Ground& ground, double baseline) {
     const double x = ground.centre.x() + random.Uniform(-half, half);
     const double y = ground.centre.y() + random.Uniform(-half, half);
     const double direction = random.Uniform(0.0, M_PI);
-    if (ground.findings.no_data > 0 && !ground.surface->Known(x, y, baseline)) continue;
+    if (ground.quality.no_data > 0 && !ground.surface->Known(x, y, baseline)) continue;
     const double dx = 0.5 * baseline * std::cos(direction);
     const double dy = 0.5 * baseline * std::sin(direction);
     const double rise =
@@ -301,7 +279,7 @@ Json SlopesJson(const Ground& ground) {
   return json;
 }
 
-Json RasterJson(const HeightGrid& raster, const RasterFindings& findings) {
+Json RasterJson(const HeightGrid& raster, const DemQuality& quality) {
   float lowest = std::numeric_limits<float>::infinity();
   float highest = -lowest;
   for (const float height : raster.heights) {
@@ -314,12 +292,31 @@ Json RasterJson(const HeightGrid& raster, const RasterFindings& findings) {
   json["rows"] = raster.rows;
   json["pixel_m"] = raster.spacing;
   json["crs"] = raster.crs;
-  json["no_data"] = findings.no_data;
+  json["no_data"] = quality.no_data;
   json["no_data_percent"] =
-      100.0 * static_cast<double>(findings.no_data) / static_cast<double>(findings.posts);
+      100.0 * static_cast<double>(quality.no_data) / static_cast<double>(quality.posts);
+  json["spikes"] = quality.spikes.size();
+  json["stripes_rms_m"] = {{"rows", quality.rows.offsets}, {"columns", quality.columns.offsets}};
+  json["tracks_rms_m"] = {{"rows", quality.rows.tracks}, {"columns", quality.columns.tracks}};
+  json["quantisation_m"] = quality.quantisation;
+  json["effective_resolution_m"] = quality.effective_resolution;
   json["lowest_m"] = lowest;
   json["highest_m"] = highest;
   return json;
+}
+
+const char* StatisticName(const Ground& ground) {
+  return ground.options.terrain.relief.statistic == SlopeStatistic::kRms ? "rms" : "median";
+}
+
+Json ReliefJson(const Ground& ground) {
+  const SurfaceReport report = ground.surface->Report();
+  return {{"hurst", report.hurst},
+          {"hurst_clamped", report.hurst_clamped},
+          {"slope_at_1m_deg", report.slope_at_1m_deg},
+          {"statistic", StatisticName(ground)},
+          {"pixel_m", report.pixel},
+          {"effective_resolution_m", report.effective_resolution}};
 }
 
 Json Describe(const TerrainArguments& arguments, const Ground& ground) {
@@ -333,10 +330,64 @@ Json Describe(const TerrainArguments& arguments, const Ground& ground) {
                                         : Json{{"column", arguments.crop[0]},
                                                {"row", arguments.crop[1]},
                                                {"side", arguments.crop[2]}};
-  json["raster"] = RasterJson(ground.raster, ground.findings);
-  json["repaired"] = arguments.repair && ground.findings.no_data > 0;
+  json["raster"] = RasterJson(ground.raster, ground.quality);
+  json["repaired"] = ground.repaired;
+  json["relief"] = ReliefJson(ground);
   json["slopes"] = SlopesJson(ground);
   return json;
+}
+
+void PrintRelief(const Ground& ground) {
+  const SurfaceReport report = ground.surface->Report();
+  if (report.pixel <= 0.0) {
+    std::printf("relief: Hurst exponent %.2f, %s slope over 1 m %.2f degrees\n", report.hurst,
+                StatisticName(ground), report.slope_at_1m_deg);
+    return;
+  }
+  const char* const bound =
+      report.hurst > 0.5 ? " (a bound: the model is rougher)" : " (a bound: the model is smoother)";
+  const ReliefOptions& options = ground.options.terrain.relief;
+  std::printf(
+      "relief below %.3g m is added: Hurst exponent %.2f%s, %s slope over 1 m %.2f degrees "
+      "(statistics: %.2f and %.2f)\n",
+      report.effective_resolution, report.hurst, report.hurst_clamped ? bound : "",
+      StatisticName(ground), report.slope_at_1m_deg, options.hurst, options.slope_deg);
+}
+
+void ReportStripes(const std::string& lines, const Stripes& stripes, const std::string& advice) {
+  if (stripes.striped) {
+    LogWarning(
+        Concatenate("stripes along ", lines, ", offsets of ", stripes.offsets, " m RMS: ", advice));
+  }
+  if (stripes.tracked) {
+    LogWarning(Concatenate("tracks along ", lines, ", rougher than the rest by ", stripes.tracks,
+                           " m RMS: ", advice));
+  }
+}
+
+// A line for each flaw that the model has.
+void ReportFlaws(const Ground& ground, bool repair) {
+  const DemQuality& quality = ground.quality;
+  const std::string advice = repair ? "repaired" : "they stay; --repair takes them out";
+  if (quality.no_data > 0) {
+    LogWarning(Concatenate(quality.no_data, " posts without data: ",
+                           repair ? "filled"
+                                  : "they stay so in terrain.tif, exports take their neighbours' "
+                                    "heights; --repair fills them"));
+  }
+  if (!quality.spikes.empty()) {
+    LogWarning(Concatenate(quality.spikes.size(),
+                           " spikes, posts far off all their neighbours: ", advice));
+  }
+  ReportStripes("rows", quality.rows, advice);
+  ReportStripes("columns", quality.columns, advice);
+  if (quality.quantisation > 0.0) {
+    LogInfo(Concatenate("heights come in steps of ", quality.quantisation, " m"));
+  }
+  if (quality.effective_resolution > 2.5 * ground.raster.spacing) {
+    LogInfo(Concatenate("the model is smoother than its pixels: it carries wavelengths from ",
+                        quality.effective_resolution, " m on"));
+  }
 }
 
 void PrintSummary(const Json& summary) {
@@ -400,17 +451,13 @@ int Terrain(const TerrainArguments& arguments) {
   CheckArguments(arguments);
   SetQuiet(arguments.quiet);
   ThreadPool pool(arguments.threads);
-  Ground ground = MakeGround(arguments, &pool);
+  const Ground ground = MakeGround(arguments, &pool);
   PrepareOutputFolder(arguments.out, arguments.overwrite);
 
   Json summary = Describe(arguments, ground);
   PrintSummary(summary);
-  if (ground.findings.no_data > 0 && !arguments.repair) {
-    LogWarning(Concatenate(ground.findings.no_data,
-                           " posts without data stay so in terrain.tif; exports take their "
-                           "neighbours' heights; --repair fills them"));
-  }
-  if (arguments.repair) FillNoData(&ground.raster);
+  PrintRelief(ground);
+  ReportFlaws(ground, arguments.repair);
   WriteHeights(arguments.out + "/terrain.tif", ground.raster);
   WriteFile(arguments.out + "/terrain.yaml", WriteScenario(ground.options));
   WritePng(arguments.out + "/preview.png", ShadedRelief(ground.raster, {}, kPreviewPixels));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "regolith/core/check.h"
@@ -37,6 +38,11 @@ double MedianMagnitude(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+double RobustSigma(std::vector<double> values) {
+  constexpr double kSigmaPerMedian = 1.4826;
+  return values.empty() ? 0.0 : kSigmaPerMedian * MedianMagnitude(std::move(values));
 }
 
 double RmsDeviation(const HeightFunction& height, const Eigen::AlignedBox2d& box, double distance,

@@ -23,6 +23,9 @@ std::vector<double> HeightDifferences(const HeightFunction& height, const Eigen:
 double RootMeanSquare(const std::vector<double>& values);
 double MedianMagnitude(std::vector<double> values);
 
+/// The standard deviation of normal deviates about zero with the same median magnitude; 0 of none.
+double RobustSigma(std::vector<double> values);
+
 /// Allan (RMS) deviation ν(L) of the height over `distance` m, from profiles in all directions at
 /// `samples` seeded places of `box` (Shepard et al. 2001).
 double RmsDeviation(const HeightFunction& height, const Eigen::AlignedBox2d& box, double distance,

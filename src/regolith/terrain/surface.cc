@@ -10,6 +10,8 @@
 #include "regolith/terrain/clods.h"
 #include "regolith/terrain/craters.h"
 #include "regolith/terrain/dem.h"
+#include "regolith/terrain/dem_relief.h"
+#include "regolith/terrain/effective_resolution.h"
 #include "regolith/terrain/fractal_noise.h"
 #include "regolith/terrain/ripples.h"
 #include "regolith/terrain/rock_shapes.h"
@@ -46,22 +48,14 @@ class Statistical {
   }
   double Height(double x, double y, double spacing) const {
     return Relief(x, y, spacing) + craters_.Height(x, y, kCraterPosts * spacing) +
-           Fine(x, y, spacing);
+           ripples_.Height(x, y, spacing) + clods_.Height(x, y, spacing);
   }
   void AddTo(const PostBlock& block, double* heights) const {
     relief_.AddTo(block, kWavelengthsPerPost * block.spacing, heights);
     craters_.AddTo(block, kCraterPosts * block.spacing, heights);
-    AddFineTo(block, heights);
-  }
-  /// What is below any orbital pixel: ripples and clods.
-  double Fine(double x, double y, double spacing) const {
-    return ripples_.Height(x, y, spacing) + clods_.Height(x, y, spacing);
-  }
-  void AddFineTo(const PostBlock& block, double* heights) const {
     ripples_.AddTo(block, heights);
     clods_.AddTo(block, heights);
   }
-  const FractalNoise& relief() const { return relief_; }
   const CraterField& craters() const { return craters_; }
 
  private:
@@ -104,6 +98,7 @@ class GeneratedSurface : public Surface {
  public:
   GeneratedSurface(const TerrainOptions& options, uint64_t seed, const Eigen::AlignedBox2d& box)
       : box_(box),
+        report_{options.relief.hurst, options.relief.slope_deg, 0.0, 0.0, false},
         statistical_(options, seed, box),
         albedo_(options.albedo, StreamSeed(seed, "albedo")),
         rocks_(options.rocks, StreamSeed(seed, "rocks"), statistical_.craters(), box),
@@ -130,9 +125,11 @@ class GeneratedSurface : public Surface {
                                              Eigen::Vector2d(x + margin, y + margin)));
   }
   Eigen::AlignedBox2d box() const override { return box_; }
+  SurfaceReport Report() const override { return report_; }
 
  private:
   Eigen::AlignedBox2d box_;
+  SurfaceReport report_;
   Statistical statistical_;
   AlbedoField albedo_;
   RockField rocks_;
@@ -145,35 +142,29 @@ Eigen::AlignedBox2d SearchBox(const Dem& dem) {
   return {-half, half};
 }
 
-// Below twice the pixel the model itself says nothing (its effective resolution).
-TerrainOptions BelowPixel(TerrainOptions options, double pixel) {
-  options.relief.longest_wavelength =
-      std::max(2.0 * pixel, 2.0 * options.relief.shortest_wavelength);
-  options.craters.max_diameter = std::min(options.craters.max_diameter, 2.0 * pixel);
-  if (options.craters.max_diameter <= options.craters.min_diameter) options.craters.density = 0.0;
+// What is wider than the model's effective resolution stands in the model already.
+CraterOptions Below(CraterOptions options, double resolution) {
+  options.max_diameter = std::min(options.max_diameter, resolution);
+  if (options.max_diameter <= options.min_diameter) options.density = 0.0;
+  return options;
+}
+
+RippleOptions Below(RippleOptions options, double resolution) {
+  if (options.wavelength >= resolution) options.height = 0.0;
+  if (options.mega_wavelength >= resolution) options.mega_height = 0.0;
+  if (options.dune_wavelength >= resolution) options.dune_height = 0.0;
   return options;
 }
 
 class DemSurface : public Surface {
  public:
   DemSurface(const HeightGrid& dem, const TerrainOptions& options, uint64_t seed)
-      : dem_(dem),
-        full_(options, seed, FitBox()),
-        craters_(BelowPixel(options, dem.spacing).craters, StreamSeed(seed, "dem craters"),
-                 SearchBox(dem_), kSurroundings),
-        longest_(2.0 * dem.spacing),
-        albedo_(options.albedo, StreamSeed(seed, "albedo")),
-        rocks_(options.rocks, StreamSeed(seed, "rocks"), craters_, SearchBox(dem_)),
-        rock_shapes_(MakeRockShapes(options.rocks.height_share)) {}
+      : DemSurface(dem, options, seed, EffectiveResolution(dem)) {}
 
   double Height(double x, double y, double spacing) const override {
-    double height = dem_.Height(x, y) + craters_.Height(x, y, kCraterPosts * spacing) +
-                    full_.Fine(x, y, spacing);
-    // What the statistics have below the pixel: all of their relief without its long waves.
-    if (2.0 * spacing < longest_) {
-      height += full_.Relief(x, y, spacing) - full_.Relief(x, y, 0.5 * longest_);
-    }
-    return height;
+    return dem_.Height(x, y) + relief_.noise.At(x, y, kWavelengthsPerPost * spacing) +
+           craters_.Height(x, y, kCraterPosts * spacing) + ripples_.Height(x, y, spacing) +
+           clods_.Height(x, y, spacing);
   }
   double Albedo(double x, double y, double spacing) const override {
     return albedo_.At(x, y, spacing);
@@ -182,14 +173,10 @@ class DemSurface : public Surface {
               std::vector<float>* albedo) const override {
     heights->assign(block.size(), 0.0);
     dem_.AddTo(block, heights->data());
+    relief_.noise.AddTo(block, kWavelengthsPerPost * block.spacing, heights->data());
     craters_.AddTo(block, kCraterPosts * block.spacing, heights->data());
-    full_.AddFineTo(block, heights->data());
-    if (kWavelengthsPerPost * block.spacing < longest_) {
-      full_.relief().AddTo(block, kWavelengthsPerPost * block.spacing, heights->data());
-      std::vector<double> coarse(block.size(), 0.0);
-      full_.relief().AddTo(block, longest_, coarse.data());
-      for (size_t i = 0; i < coarse.size(); ++i) (*heights)[i] -= coarse[i];
-    }
+    ripples_.AddTo(block, heights->data());
+    clods_.AddTo(block, heights->data());
     albedo_.Sample(block, albedo);
   }
   std::vector<Rock> Rocks(const Eigen::AlignedBox2d& area, double min_diameter) const override {
@@ -200,17 +187,31 @@ class DemSurface : public Surface {
     return dem_.HasData(x, y, margin);
   }
   Eigen::AlignedBox2d box() const override { return SearchBox(dem_); }
+  SurfaceReport Report() const override { return relief_.report; }
 
  private:
-  // Enough ground for the slope figure; the scale that it yields holds anywhere.
-  static Eigen::AlignedBox2d FitBox() {
-    return {Eigen::Vector2d(-60.0, -60.0), Eigen::Vector2d(60.0, 60.0)};
-  }
+  DemSurface(const HeightGrid& dem, const TerrainOptions& options, uint64_t seed, double resolution)
+      : dem_(dem),
+        craters_(Below(options.craters, resolution), StreamSeed(seed, "dem craters"),
+                 SearchBox(dem_), kSurroundings),
+        ripples_(Below(options.ripples, resolution), StreamSeed(seed, "ripples")),
+        clods_(options.clods, StreamSeed(seed, "clods")),
+        relief_(ContinueRelief(
+            dem_, resolution,
+            [this](double x, double y) {
+              return craters_.Height(x, y, kCraterPosts * kFitSpacing) +
+                     ripples_.Height(x, y, kFitSpacing);
+            },
+            options.relief, SearchBox(dem_), StreamSeed(seed, "relief"))),
+        albedo_(options.albedo, StreamSeed(seed, "albedo")),
+        rocks_(options.rocks, StreamSeed(seed, "rocks"), craters_, SearchBox(dem_)),
+        rock_shapes_(MakeRockShapes(options.rocks.height_share)) {}
 
   Dem dem_;
-  Statistical full_;
   CraterField craters_;
-  double longest_;
+  RippleField ripples_;
+  ClodField clods_;
+  DemRelief relief_;
   AlbedoField albedo_;
   RockField rocks_;
   std::vector<RockShape> rock_shapes_;
@@ -235,6 +236,8 @@ void Surface::Sample(const PostBlock& block, std::vector<double>* heights,
 std::vector<Rock> Surface::Rocks(const Eigen::AlignedBox2d&, double) const { return {}; }
 
 std::vector<RockShape> Surface::RockShapes() const { return {}; }
+
+SurfaceReport Surface::Report() const { return {}; }
 
 std::unique_ptr<Surface> CreateGeneratedSurface(const TerrainOptions& options, uint64_t seed,
                                                 const Eigen::AlignedBox2d& box) {

@@ -12,6 +12,7 @@
 #include "regolith/terrain/height_grid.h"
 #include "regolith/terrain/post_block.h"
 #include "regolith/terrain/rock.h"
+#include "regolith/terrain/surface_report.h"
 #include "regolith/terrain/terrain_options.h"
 
 namespace regolith {
@@ -45,6 +46,9 @@ class Surface {
 
   /// The box in which a path may be looked for, m.
   virtual Eigen::AlignedBox2d box() const = 0;
+
+  /// What its relief was made of.
+  virtual SurfaceReport Report() const;
 };
 
 /// Ground generated from statistics: self-affine relief and craters, scaled together so that the
@@ -52,8 +56,9 @@ class Surface {
 std::unique_ptr<Surface> CreateGeneratedSurface(const TerrainOptions& options, uint64_t seed,
                                                 const Eigen::AlignedBox2d& box);
 
-/// Ground of an elevation model, with relief and craters of the same statistics added below its
-/// pixels only. The origin lies in its centre. Throws InputError for a model without data.
+/// Ground of an elevation model, with relief, craters and ripples added below its effective
+/// resolution only: they go on from the model's own relief to the slopes of the statistics over 1 m
+/// (dem_relief.h). The origin lies in its centre. Throws InputError for a model without data.
 std::unique_ptr<Surface> CreateDemSurface(const HeightGrid& dem, const TerrainOptions& options,
                                           uint64_t seed);
 
