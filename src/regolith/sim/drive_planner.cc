@@ -22,7 +22,8 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 constexpr int kCandidates = 60;                // places looked at
-constexpr int kTries = 12;                     // places planned at
+constexpr int kTries = 12;                     // of them, planned at
+constexpr int kRounds = 12;                    // of looking at places, while none has a route
 constexpr int kRoutes = 3;                     // routes found, of which the best is taken
 constexpr int kRepairs = 6;                    // new searches for a leg whose check fails
 constexpr int kWidenings = 2;                  // rounds of them, each farther from the nominal leg
@@ -96,6 +97,7 @@ class Planner {
         random_(seed, "placement") {}
 
   Route Find();
+  std::optional<Route> BestAmong(const std::vector<Placement>& placements);
   double SteepestOf(const std::vector<PlanarPose>& path, Eigen::Vector2d* place);
   std::vector<Eigen::Vector2d> Cleared(const Route& route);
 
@@ -362,11 +364,11 @@ double Planner::Badness(const Route& route) {
          0.3 * std::max(0.0, std::floor(cleared - kMostCleared * length));
 }
 
-Route Planner::Find() {
+std::optional<Route> Planner::BestAmong(const std::vector<Placement>& placements) {
   std::optional<Route> best;
   int tries = 0;
   int routes = 0;
-  for (const Placement& placement : Placements()) {
+  for (const Placement& placement : placements) {
     if (tries++ == kTries || routes == kRoutes) break;
     std::optional<Route> route = Plan(placement);
     if (!route) continue;
@@ -374,7 +376,15 @@ Route Planner::Find() {
     if (!best || route->badness < best->badness) best = std::move(route);
     if (best->badness <= kGoodEnough) break;
   }
-  if (best) return *best;
+  return best;
+}
+
+Route Planner::Find() {
+  const int rounds = placed_by_user() ? 1 : kRounds;
+  for (int round = 0; round < rounds; ++round) {
+    const std::optional<Route> best = BestAmong(Placements());
+    if (best) return *best;
+  }
   throw InputError(
       "drive.max_slope_deg",
       Concatenate("no route below ", options_.max_slope_deg,

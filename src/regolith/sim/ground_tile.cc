@@ -191,8 +191,7 @@ SurfacePoint GroundTile::At(float x, float y, float width, float length,
     if (coarser > 0.0F) AddBilinear(mip + 1, 0.5F * u, 0.5F * v, share * coarser, &sum);
   }
   SurfacePoint point;
-  point.normal =
-      Eigen::Vector3f(-sum[0] / kSlopeScale, -sum[1] / kSlopeScale, 1.0F).normalized();
+  point.normal = Eigen::Vector3f(-sum[0] / kSlopeScale, -sum[1] / kSlopeScale, 1.0F).normalized();
   point.albedo = sum[2] / kAlbedoScale;
   point.light = point.normal.z() * sum[3] / kLightScale;
   point.fill = sum[4] / kFillScale;

@@ -84,8 +84,7 @@ void FindFlow(const Scene& scene, const Renderer& renderer, const CameraIntrinsi
               const SE3& T_world_first, const SE3& T_world_second, ThreadPool* pool,
               ImagePair* pair) {
   const FlowFinder finder(scene, renderer, intrinsics, T_world_first, T_world_second);
-  const auto count =
-      static_cast<size_t>(intrinsics.width) * static_cast<size_t>(intrinsics.height);
+  const auto count = static_cast<size_t>(intrinsics.width) * static_cast<size_t>(intrinsics.height);
   pair->flow_x.assign(count, kUnknown);
   pair->flow_y.assign(count, kUnknown);
   constexpr size_t kPacketsAtOnce = 512;

@@ -102,8 +102,8 @@ TEST_F(ImagePairTest, WhatAWallHidesHasNoFlow) {
   const Eigen::Vector3d behind(5.2, 0.0, 0.0);
   const auto pixel = model->Project(T_world_first.Inverse() * behind);
   ASSERT_TRUE(pixel.has_value());
-  const size_t place = Pixel(static_cast<int>(std::lround(pixel->x())),
-                             static_cast<int>(std::lround(pixel->y())));
+  const size_t place =
+      Pixel(static_cast<int>(std::lround(pixel->x())), static_cast<int>(std::lround(pixel->y())));
   EXPECT_TRUE(std::isnan(Find(T_world_first, T_world_second).flow_x[place]));
   surface_.wall_at = 1e9;
   EXPECT_FALSE(std::isnan(Find(T_world_first, T_world_second).flow_x[place]));

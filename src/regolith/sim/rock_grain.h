@@ -10,7 +10,7 @@ namespace regolith {
 
 /// What a rock's surface has below its mesh: minerals and roughness.
 struct RockGrain {
-  float brightness = 1.0F;                         ///< factor on its albedo
+  float brightness = 1.0F;                          ///< factor on its albedo
   Eigen::Vector3f slope = Eigen::Vector3f::Zero();  ///< to take off its normal, rock's frame
 };
 

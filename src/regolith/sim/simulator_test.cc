@@ -233,9 +233,8 @@ TEST_F(LidarTest, PointsAndPixelsAreTheSamePlaces) {
     for (const int i : {0, 1}) {
       for (const int j : {0, 1}) {
         const double weight = (i ? share.x() : 1.0 - share.x()) * (j ? share.y() : 1.0 - share.y());
-        const auto at =
-            (static_cast<size_t>(low.y()) + static_cast<size_t>(j)) * 640 +
-            static_cast<size_t>(low.x()) + static_cast<size_t>(i);
+        const auto at = (static_cast<size_t>(low.y()) + static_cast<size_t>(j)) * 640 +
+                        static_cast<size_t>(low.x()) + static_cast<size_t>(i);
         inverse += weight / static_cast<double>(view.distance[at]);
       }
     }

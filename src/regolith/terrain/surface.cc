@@ -16,6 +16,7 @@
 #include "regolith/terrain/ripples.h"
 #include "regolith/terrain/rock_shapes.h"
 #include "regolith/terrain/rocks.h"
+#include "regolith/terrain/search_box.h"
 #include "regolith/terrain/slope_statistics.h"
 
 namespace regolith {
@@ -28,8 +29,7 @@ constexpr double kFitSpacing = 0.05;  // m
 constexpr double kWavelengthsPerPost = 2.0;
 constexpr double kCraterPosts = 4.0;
 // A mesh reaches beyond the box of the path.
-constexpr double kSurroundings = 3000.0;     // m
-constexpr double kLargestSearchBox = 400.0;  // m, half of it
+constexpr double kSurroundings = 3000.0;  // m
 
 // Relief and craters of the statistics, scaled together.
 class Statistical {
@@ -136,12 +136,6 @@ class GeneratedSurface : public Surface {
   std::vector<RockShape> rock_shapes_;
 };
 
-Eigen::AlignedBox2d SearchBox(const Dem& dem) {
-  const Eigen::Vector2d half =
-      dem.half_size().cwiseMin(Eigen::Vector2d::Constant(kLargestSearchBox));
-  return {-half, half};
-}
-
 // What is wider than the model's effective resolution stands in the model already.
 CraterOptions Below(CraterOptions options, double resolution) {
   options.max_diameter = std::min(options.max_diameter, resolution);
@@ -186,14 +180,15 @@ class DemSurface : public Surface {
   bool Known(double x, double y, double margin) const override {
     return dem_.HasData(x, y, margin);
   }
-  Eigen::AlignedBox2d box() const override { return SearchBox(dem_); }
+  Eigen::AlignedBox2d box() const override { return box_; }
   SurfaceReport Report() const override { return relief_.report; }
 
  private:
   DemSurface(const HeightGrid& dem, const TerrainOptions& options, uint64_t seed, double resolution)
       : dem_(dem),
-        craters_(Below(options.craters, resolution), StreamSeed(seed, "dem craters"),
-                 SearchBox(dem_), kSurroundings),
+        box_(SearchBox(dem_)),
+        craters_(Below(options.craters, resolution), StreamSeed(seed, "dem craters"), box_,
+                 kSurroundings),
         ripples_(Below(options.ripples, resolution), StreamSeed(seed, "ripples")),
         clods_(options.clods, StreamSeed(seed, "clods")),
         relief_(ContinueRelief(
@@ -202,12 +197,13 @@ class DemSurface : public Surface {
               return craters_.Height(x, y, kCraterPosts * kFitSpacing) +
                      ripples_.Height(x, y, kFitSpacing);
             },
-            options.relief, SearchBox(dem_), StreamSeed(seed, "relief"))),
+            options.relief, box_, StreamSeed(seed, "relief"))),
         albedo_(options.albedo, StreamSeed(seed, "albedo")),
-        rocks_(options.rocks, StreamSeed(seed, "rocks"), craters_, SearchBox(dem_)),
+        rocks_(options.rocks, StreamSeed(seed, "rocks"), craters_, box_),
         rock_shapes_(MakeRockShapes(options.rocks.height_share)) {}
 
   Dem dem_;
+  Eigen::AlignedBox2d box_;
   CraterField craters_;
   RippleField ripples_;
   ClodField clods_;
