@@ -6,6 +6,7 @@
 import functools
 import io
 import math
+import re
 import unittest
 
 import numpy
@@ -217,29 +218,123 @@ class Motion:
 
     HALF = 10  # samples of truth
 
-    def __init__(self, record):
-        poses = record.truth
-        T_imu_base = matrix(record.rig["wheels"]["T_imu_base"])
+    def __init__(self, times, poses, T_imu_base):
         rotations = Rotation.from_quat(poses[:, 3:7])
         base = poses[:, :3] + rotations.apply(T_imu_base[:3, 3])
         half, last = self.HALF, len(poses)
-        self.times = record.times("truth")[half:last - half:2]
+        self.truth_times = times
+        self.times = times[half:last - half:2]
         middle = slice(half, last - half, 2)
         before, after = slice(0, last - 2 * half, 2), slice(2 * half, last, 2)
         seconds = 0.02 * half
         self.speed = rotations[middle].inv().apply((base[after] - base[before]) / seconds)[:, 0]
         self.yaw_rate = (rotations[before].inv() * rotations[after]).as_rotvec()[:, 2] / seconds
-        self.slope = numpy.degrees(numpy.arcsin(rotations[middle].as_matrix()[:, 2, 0]))
+        matrices = rotations.as_matrix()
+        self.slope = numpy.degrees(numpy.arcsin(matrices[middle, 2, 0]))
+        self.tilt = numpy.degrees(numpy.arccos(matrices[:, 2, 2]))
+        self.yaw = numpy.unwrap(numpy.arctan2(matrices[:, 1, 0], matrices[:, 0, 0]))
+        self.heading_rate = (self.yaw[after] - self.yaw[before]) / seconds
         self.position = base
-        steps = numpy.linalg.norm(numpy.diff(base[::10], axis=0), axis=1)
-        self.length = steps.sum()
-        odom = record.odom[half // 2:, :][:len(self.times)]
-        self.odom_speed, self.odom_yaw_rate = odom[:, 0], odom[:, 1]
+        self.length = numpy.linalg.norm(numpy.diff(base[::10], axis=0), axis=1).sum()
 
 
 @functools.lru_cache(maxsize=1)
 def motion():
-    return Motion(recording())
+    record = recording()
+    return Motion(record.times("truth"), record.truth, matrix(record.rig["wheels"]["T_imu_base"]))
+
+
+@functools.lru_cache(maxsize=1)
+def odometry():
+    """Reported speed and yaw rate at the motion's times."""
+    odom = recording().odom[Motion.HALF // 2:, :][:len(motion().times)]
+    return odom[:, 0], odom[:, 1]
+
+
+def check_pace(test, moves, nominal):
+    """Three seconds at rest; then 0.2 to 0.8 m/s on the move, that is, a second or more away from any rest."""
+    test.assertLess(numpy.abs(moves.speed[moves.times < 2.7]).max(), 1e-4)
+    test.assertGreater(numpy.abs(moves.speed).max(), 0.3)
+    test.assertLess(moves.speed.max(), 0.8)
+    test.assertGreater(moves.speed.min(), -0.02)
+    resting = numpy.convolve(moves.speed < 0.02, numpy.ones(101), "same") > 0
+    moving = moves.speed[~resting]
+    test.assertGreater(len(moving), 0.4 * len(moves.speed))
+    test.assertGreater(moving.min(), 0.2)
+    test.assertAlmostEqual(moving.mean(), nominal, delta=0.2 * nominal)
+
+
+def turns(moves):
+    return (numpy.abs(moves.speed) < 0.02) & (numpy.abs(moves.yaw_rate) > math.radians(2.0))
+
+
+def check_turns(test, moves):
+    """Of the heading: the body's own rate holds its rocking over uneven ground, too."""
+    rate = numpy.degrees(numpy.abs(moves.heading_rate[turns(moves)]))
+    test.assertGreater(len(rate), 25, "half a second of turning on the spot")
+    test.assertLess(rate.max(), 20.1)
+    test.assertGreater(rate.max(), 12.0)
+
+
+# Little but the motion: rough ground, and the sensors as slow and small as they may be.
+ONLY_MOTION = ("mesh.reach=20", "camera.rate=0.1", "camera.width=64", "camera.height=48", "lidar.rate=1",
+               "lidar.firings=36", "imu.rate=50", "wheels.rate=1")
+LENGTHS = {"lunar": (300, 400), "mars": (150, 220), "lunar_short": (16, 20), "mars_short": (18, 24)}
+OTHERS_LENGTH = (45, 100)  # m
+PLACES_APART = 0.5  # m, of the places in which revisits are sought
+REACH = 2.0  # m to the old track
+
+
+def revisits(position, yaw):
+    """Length (m) and whether it faces the old way (1) or the other way (-1), of stretches within 2 m of a track that is
+    20 m of driving older or more."""
+    driven = numpy.concatenate([[0.0], numpy.cumsum(numpy.linalg.norm(numpy.diff(position, axis=0), axis=1))])
+    chosen = numpy.searchsorted(driven, numpy.arange(0.0, driven[-1], PLACES_APART))
+    place, way, yaw = position[chosen], driven[chosen], yaw[chosen]
+    distance = numpy.linalg.norm(place[:, None] - place[None], axis=2)
+    distance[way[:, None] - way[None] < 20.0] = numpy.inf
+    nearest = distance.argmin(axis=1)
+    facing = numpy.cos(yaw[nearest] - yaw)
+    kind = numpy.where((distance.min(axis=1) < REACH) & (numpy.abs(facing) > 0.5), numpy.sign(facing), 0.0)
+    ends = numpy.flatnonzero(numpy.diff(kind, prepend=0.0, append=0.0))
+    return [(way[last - 1] - way[first], kind[first]) for first, last in zip(ends, ends[1:]) if kind[first] != 0.0]
+
+
+class Drives(ProgramTest):
+    """The drives of all scenarios in full, seen by next to no sensors."""
+
+    def drive(self, name):
+        out = self.folder / name
+        settings = [word for setting in ONLY_MOTION for word in ("--set", setting)]
+        result = call("simulate", "--scenario", name, "--quality", "draft", *settings, "--quiet", "--out", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        steepest = float(re.search(r"slopes up to ([0-9.]+) degrees", result.stdout).group(1))
+        truth = numpy.array(read_tum(out / "ground_truth.tum"))
+        rig = read_yaml(out / "rig.yaml")
+        return Motion(truth[:, 0] - truth[0, 0], truth[:, 1:], matrix(rig["wheels"]["T_imu_base"])), steepest
+
+    def test_length_speed_turns_slopes_and_revisits(self):
+        for name in sorted(SCENARIOS):
+            with self.subTest(name):
+                moves, steepest = self.drive(name)
+                self.assertAlmostEqual(moves.truth_times[-1], DURATIONS[name], delta=0.02)
+                low, high = LENGTHS.get(name, OTHERS_LENGTH)
+                self.assertGreaterEqual(moves.length, low)
+                self.assertLessEqual(moves.length, high)
+                check_pace(self, moves, 0.65 if name in MARS else 0.5)
+                check_turns(self, moves)
+                self.check_slopes(name, moves, steepest)
+                if name in ("lunar", "mars"):
+                    long = [kind for length, kind in revisits(moves.position[:, :2], moves.yaw) if length >= 10.0]
+                    self.assertEqual(long, [1.0, -1.0])
+
+    def check_slopes(self, name, moves, steepest):
+        """`steepest` is the planner's: of the body, and of the ground over 1 m."""
+        self.assertLess(steepest, 15.0)
+        self.assertLess(moves.tilt.max(), 15.2, "shaking counted in")
+        if name != "flat":
+            self.assertGreaterEqual(steepest, 10.0)
+            self.assertGreater(moves.tilt.max(), 6.0)
 
 
 class Drive(unittest.TestCase):
@@ -255,32 +350,19 @@ class Drive(unittest.TestCase):
         self.assertLess(record.times("truth")[moved][0], 4.0)
 
     def test_it_drives_at_half_a_metre_a_second_between_stops(self):
-        speed = motion().speed
-        self.assertLess(speed.max(), 0.8)
-        self.assertGreater(speed.min(), -0.02)
-        # On the move: at least a second from any rest, as ramps are.
-        resting = numpy.convolve(speed < 0.02, numpy.ones(101), "same") > 0
-        moving = speed[~resting]
-        self.assertGreater(len(moving), 1000)
-        self.assertGreater(moving.min(), 0.2)
-        self.assertAlmostEqual(moving.mean(), 0.5, delta=0.1)
+        check_pace(self, motion(), 0.5)
         self.assertGreater(motion().length, 16.0)
         self.assertLess(motion().length, 20.0)
 
     def test_slopes_on_the_path(self):
-        slope = numpy.abs(motion().slope)
-        self.assertLess(slope.max(), 15.0)
-        tilt = numpy.degrees(numpy.arccos(Rotation.from_quat(recording().truth[:, 3:]).as_matrix()[:, 2, 2]))
-        self.assertLess(tilt.max(), 15.5, "shaking counted in")
+        self.assertLess(motion().tilt.max(), 15.2, "shaking counted in")
+        self.assertGreater(motion().tilt.max(), 6.0)
 
     def test_point_turns_keep_their_rate_and_are_ten_percent_off_in_the_odometry(self):
         moves = motion()
-        turning = (numpy.abs(moves.speed) < 0.02) & (numpy.abs(moves.yaw_rate) > math.radians(2.0))
-        rate = numpy.degrees(numpy.abs(moves.yaw_rate[turning]))
-        self.assertGreater(turning.sum(), 50)
-        self.assertLess(rate.max(), 20.5)
-        self.assertGreater(rate.max(), 15.0)
-        error = moves.odom_yaw_rate[turning].sum() / moves.yaw_rate[turning].sum() - 1.0
+        check_turns(self, moves)
+        turning = turns(moves)
+        error = odometry()[1][turning].sum() / moves.yaw_rate[turning].sum() - 1.0
         self.assertAlmostEqual(abs(error), 0.10, delta=0.02)
 
     def test_wheels_slip_by_the_table(self):
@@ -289,7 +371,7 @@ class Drive(unittest.TestCase):
         driving = (moves.speed > 0.2) & (moves.slope >= 0.0)
         self.assertGreater(driving.sum(), 200)
         expected = numpy.interp(moves.slope[driving], SLOPES, SLIP)
-        slip = 1.0 - moves.speed[driving].sum() / moves.odom_speed[driving].sum()
+        slip = 1.0 - moves.speed[driving].sum() / odometry()[0][driving].sum()
         mean = numpy.average(expected, weights=moves.speed[driving])
         self.assertGreater(slip, SLIP[0] - 0.012)
         # The slip of each second strays by a third; the drive has some tens of seconds.
@@ -299,7 +381,7 @@ class Drive(unittest.TestCase):
         moves = motion()
         driving = (moves.speed > 0.3) & (moves.slope >= 0.0)
         expected = numpy.interp(moves.slope[driving], SLOPES, SLIP)
-        stray = (1.0 - moves.speed[driving] / moves.odom_speed[driving] - expected) / expected
+        stray = (1.0 - moves.speed[driving] / odometry()[0][driving] - expected) / expected
         self.assertGreater(stray.std(), 0.15)
         self.assertLess(stray.std(), 0.6)
 
