@@ -18,7 +18,7 @@ CAMERA_DELAY = 0.004  # s, of the camera's clock: DESIGN §6
 
 
 def bearings(camera):
-    """Directions of all pixels in the camera's frame, rows × columns × 3: radial–tangential distortion undone."""
+    """Directions of all pixels in the camera's frame, rows × columns × 3; undoes the distortion."""
     fx, fy, cx, cy = camera["intrinsics"]
     k1, k2, p1, p2 = camera["distortion"]
     u, v = numpy.meshgrid(numpy.arange(camera["width"]), numpy.arange(camera["height"]))
@@ -41,8 +41,10 @@ def read_frames(folder, every=1, camera="mono"):
     truth = numpy.array(read_tum(folder / "ground_truth.tum"))
     frames = []
     with Reader(folder / "recording.bag") as reader:
-        topics = [connection for connection in reader.connections
-                  if connection.topic in (rig["topic"], rig["topic"] + "/compressed")]
+        topics = [
+            connection for connection in reader.connections
+            if connection.topic in (rig["topic"], rig["topic"] + "/compressed")
+        ]
         for index, (connection, _, data) in enumerate(reader.messages(connections=topics)):
             if index % every != 0:
                 continue
