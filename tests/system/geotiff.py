@@ -15,7 +15,7 @@ TYPES = {1: "B", 2: "s", 3: "H", 4: "I", 12: "d", 16: "Q"}
 
 
 class GeoTiff:
-    """`values`: rows × columns × bands; `sample_format` 3 is IEEE float; the rest as in the tags."""
+    """`values`: rows × columns × bands; `sample_format` 3 is IEEE float; the rest as tagged."""
 
     def __init__(self, path):
         self.data = pathlib.Path(path).read_bytes()
@@ -44,7 +44,7 @@ class GeoTiff:
         return tags
 
     def _read_values(self):
-        """Deflated floats, predictor 3 (TIFF technical note 3): a row's differences, in planes of bytes."""
+        """Deflated, predictor 3 (TIFF technical note 3): rows of differences, in planes of bytes."""
         columns, rows = self.tags[WIDTH][0], self.tags[HEIGHT][0]
         bands = self.tags.get(SAMPLES, (1,))[0]
         if (self.tags[COMPRESSION][0], self.tags[PREDICTOR][0], self.bits) != (8, 3, {32}):

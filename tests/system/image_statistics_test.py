@@ -37,17 +37,17 @@ HORIZON = -5.0  # degrees; what looks lower is ground, on slopes too
 # Five frames, some 6 m apart, with next to no other sensors between: 20 s.
 SPARSE = ["--set", "camera.rate=0.1", "--set", "lidar.rate=1", "--set", "lidar.firings=36"]
 # The Moon's range. No published spectrum of images of the Moon at a rover's scale was found, so two
-# published figures frame it. Shallow end: the image of a self-affine surface under oblique light has
-# a power ~ f^(-2H) (Kube & Pentland 1988, IEEE PAMI 10, 704: the surface's f^(-2H-2) times f^2), with
-# H .5 of regolith below a centimetre (Helfenstein & Shepard 1999; .6-.85 up to decimetres, Guo et al.
-# 2021): -1.0. Steep end: natural images, which have shadows and outlines too, have amplitudes of
-# f^-0.8 to f^-1.5 (Tolhurst et al. 1992, Ophthal. Physiol. Opt. 12, 229): a power of -3.0.
+# published figures frame it. Shallow end: the image of a self-affine surface under oblique light
+# has a power ~ f^(-2H) (Kube & Pentland 1988, IEEE PAMI 10, 704: the surface's f^(-2H-2) times f^2),
+# with H .5 of regolith below a centimetre (Helfenstein & Shepard 1999; .6-.85 up to decimetres, Guo
+# et al. 2021): -1.0. Steep end: natural images, which have shadows and outlines too, have amplitudes
+# of f^-0.8 to f^-1.5 (Tolhurst et al. 1992, Ophthal. Physiol. Opt. 12, 229): a power of -3.0.
 MOON_SLOPES = (-3.0, -1.0)
 
 
 def spectrum_slope(tile):
-    """Slope of log power over log frequency, of radial means from 2.5 waves a tile to 0.45 a pixel; a
-    plane is taken off and a Hann window laid over."""
+    """Slope of log power over log frequency, of radial means from 2.5 waves a tile to 0.45 a pixel;
+    a plane is taken off and a Hann window laid over."""
     rows, columns = numpy.mgrid[0:TILE, 0:TILE]
     plane = numpy.column_stack([rows.ravel(), columns.ravel(), numpy.ones(TILE * TILE)])
     fitted = plane @ numpy.linalg.lstsq(plane, tile.ravel(), rcond=None)[0]
@@ -65,7 +65,7 @@ def spectrum_slope(tile):
 
 
 def statistics(tile):
-    """Slope of the spectrum; mean gradient a pixel and contrast as shares of the mean brightness."""
+    """Slope of the spectrum; mean gradient a pixel and contrast, as shares of the brightness."""
     down, right = numpy.gradient(tile)
     mean = tile.mean()
     return spectrum_slope(tile), numpy.hypot(down, right).mean() / mean, tile.std() / mean
