@@ -44,7 +44,7 @@ class GeoTiff:
         return tags
 
     def _read_values(self):
-        """Deflated, predictor 3 (TIFF technical note 3): rows of differences, in planes of bytes."""
+        """Deflated, predictor 3 (TIFF technical note 3): rows' differences in byte planes."""
         columns, rows = self.tags[WIDTH][0], self.tags[HEIGHT][0]
         bands = self.tags.get(SAMPLES, (1,))[0]
         if (self.tags[COMPRESSION][0], self.tags[PREDICTOR][0], self.bits) != (8, 3, {32}):

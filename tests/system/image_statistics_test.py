@@ -36,12 +36,13 @@ SKY_TILES = {(0, 0), (0, 1)}  # row, column
 HORIZON = -5.0  # degrees; what looks lower is ground, on slopes too
 # Five frames, some 6 m apart, with next to no other sensors between: 20 s.
 SPARSE = ["--set", "camera.rate=0.1", "--set", "lidar.rate=1", "--set", "lidar.firings=36"]
-# The Moon's range. No published spectrum of images of the Moon at a rover's scale was found, so two
-# published figures frame it. Shallow end: the image of a self-affine surface under oblique light
-# has a power ~ f^(-2H) (Kube & Pentland 1988, IEEE PAMI 10, 704: the surface's f^(-2H-2) times f^2),
-# with H .5 of regolith below a centimetre (Helfenstein & Shepard 1999; .6-.85 up to decimetres, Guo
-# et al. 2021): -1.0. Steep end: natural images, which have shadows and outlines too, have amplitudes
-# of f^-0.8 to f^-1.5 (Tolhurst et al. 1992, Ophthal. Physiol. Opt. 12, 229): a power of -3.0.
+# The Moon's range. No published spectrum of images of the Moon at a rover's scale was found, so
+# two published figures frame it. Shallow end: the image of a self-affine surface under oblique
+# light has a power ~ f^(-2H) (Kube & Pentland 1988, IEEE PAMI 10, 704: the surface's f^(-2H-2)
+# times f^2), with H .5 of regolith below a centimetre (Helfenstein & Shepard 1999; .6-.85 up to
+# decimetres, Guo et al. 2021): -1.0. Steep end: natural images, which have shadows and outlines
+# too, have amplitudes of f^-0.8 to f^-1.5 (Tolhurst et al. 1992, Ophthal. Physiol. Opt. 12, 229):
+# a power of -3.0.
 MOON_SLOPES = (-3.0, -1.0)
 
 
