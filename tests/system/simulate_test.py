@@ -30,7 +30,8 @@ class BadInput(ProgramTest):
     def refused(self, *arguments, words, scenario="lunar_short"):
         out = self.folder / "out"
         start = time.monotonic()
-        result = call("simulate", "--scenario", scenario, *arguments, "--out", out, timeout=120)
+        result = call("simulate", "--scenario", scenario, *arguments, "--quiet", "--out", out,
+                      timeout=120)
         self.assertLess(time.monotonic() - start, AT_ONCE, arguments)
         self.assert_refused(result, *words)
         self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
