@@ -17,6 +17,7 @@ constexpr double kMarsSunRadius = 0.175 * kDegree;
 constexpr double kForwardShare = 0.7;
 constexpr double kDustAsymmetry = 0.69;
 constexpr double kScaleHeight = 11600.0;  // m, of the dust (Lemmon 2004)
+constexpr float kUnseenHaze = 1e-3F;      // a grey level is four times as much
 // Rock that stands free sees its own shadow too: a share of what level ground around would send.
 constexpr float kGroundShare = 0.5F;
 
@@ -154,8 +155,9 @@ float Photometry::Sky(const Eigen::Vector3f& direction) const {
 
 float Photometry::ThroughAir(float radiance, const Eigen::Vector3f& direction,
                              float distance) const {
-  if (extinction_ <= 0.0F) return radiance;
-  const float passed = std::exp(-extinction_ * distance);
+  const float depth = extinction_ * distance;
+  if (depth < kUnseenHaze) return radiance;
+  const float passed = std::exp(-depth);
   Eigen::Vector3f level(direction.x(), direction.y(), 0.0F);
   return passed * radiance + (1.0F - passed) * SkyWithoutSun(level.normalized());
 }

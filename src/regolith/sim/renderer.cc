@@ -59,27 +59,28 @@ Renderer::Renderer(const CameraIntrinsics& intrinsics, const Scene& scene,
 }
 
 void Renderer::Render(const SE3& T_world_camera, const Surroundings& surroundings,
-                      RenderedView* view) const {
+                      RenderedView* view, const NearbyView* nearby) const {
   const Pose pose{T_world_camera.rotation.toRotationMatrix().cast<float>(),
-                  T_world_camera.translation.cast<float>()};
+                  T_world_camera.translation.cast<float>(), nearby};
   view->width = width_;
   view->height = height_;
   view->radiance.resize(bearings_.size());
   view->distance.resize(bearings_.size());
-  std::vector<uint32_t> objects(bearings_.size());
+  view->objects.resize(bearings_.size());
   // An even number, so that the lines that are cast are the same for all.
   constexpr size_t kRowsAtOnce = 16;
   const auto rows = static_cast<size_t>(height_);
   pool_->ParallelFor(rows, kRowsAtOnce, [&](size_t begin, size_t end, size_t) {
-    RenderRows(pose, surroundings, static_cast<int>(begin), static_cast<int>(end), view, &objects);
+    RenderRows(pose, surroundings, static_cast<int>(begin), static_cast<int>(end), view);
   });
   pool_->ParallelFor(rows, kRowsAtOnce, [&](size_t begin, size_t end, size_t) {
-    RefineRows(pose, surroundings, static_cast<int>(begin), static_cast<int>(end), objects, view);
+    RefineRows(pose, surroundings, static_cast<int>(begin), static_cast<int>(end), view);
   });
 }
 
 Renderer::Line Renderer::Aim(const Pose& pose, int row, float down) const {
   Line line;
+  line.row = row;
   const auto width = static_cast<size_t>(width_);
   line.directions.reserve(width);
   for (int column = 0; column < width_; ++column) {
@@ -96,27 +97,40 @@ Renderer::Line Renderer::Aim(const Pose& pose, int row, float down) const {
 
 void Renderer::CastColumns(const Pose& pose, Span<const int> columns, Line* line) const {
   RayPacket rays;
-  for (size_t first = 0; first < columns.size(); first += kPacketSize) {
-    const size_t count = std::min(columns.size() - first, static_cast<size_t>(kPacketSize));
-    for (size_t lane = 0; lane < kPacketSize; ++lane) {
-      const auto column = static_cast<size_t>(columns[first + std::min(lane, count - 1)]);
-      rays.Set(static_cast<int>(lane), pose.origin, line->directions[column],
-               lane < count ? kFarAway : -1.0F);
-    }
+  int lanes[kPacketSize];
+  int count = 0;
+  const auto cast = [&] {
+    for (int lane = count; lane < kPacketSize; ++lane) rays.Off(lane);
     scene_.Intersect(&rays);
-    for (size_t lane = 0; lane < count; ++lane) {
-      const auto column = static_cast<size_t>(columns[first + lane]);
+    for (int lane = 0; lane < count; ++lane) {
+      const auto column = static_cast<size_t>(lanes[lane]);
       line->distances[column] = rays.distance[lane];
       line->objects[column] = rays.object[lane];
       line->triangles[column] = rays.triangle[lane];
       line->u[column] = rays.u[lane];
       line->v[column] = rays.v[lane];
     }
+    count = 0;
+  };
+  for (const int column : columns) {
+    const auto here = static_cast<size_t>(column);
+    if (pose.nearby != nullptr) {
+      const auto end = pose.nearby->Find(column, line->row, pose.origin, line->directions[here]);
+      if (end) {
+        line->distances[here] = end->distance;
+        line->objects[here] = end->object;
+        continue;
+      }
+    }
+    rays.Set(count, pose.origin, line->directions[here], kFarAway);
+    lanes[count++] = column;
+    if (count == kPacketSize) cast();
   }
+  if (count > 0) cast();
 }
 
 // The ray half-way between two that see the sky, or nearly the same place of the ground.
-bool Renderer::Interpolate(const Pose& pose, const End& one, const End& other, float tolerance,
+bool Renderer::Interpolate(const Pose& pose, const RayEnd& one, const RayEnd& other, float tolerance,
                            Line* line, int column) const {
   if (one.object == kNothing || other.object == kNothing) return one.object == other.object;
   if (scene_.IsRock(one.object) || scene_.IsRock(other.object)) return false;
@@ -145,8 +159,8 @@ void Renderer::CastSparse(const Pose& pose, Line* line) const {
       continue;
     }
     const auto here = static_cast<size_t>(column);
-    const End left{line->distances[here - 1], line->objects[here - 1]};
-    const End right{line->distances[here + 1], line->objects[here + 1]};
+    const RayEnd left{line->distances[here - 1], line->objects[here - 1]};
+    const RayEnd right{line->distances[here + 1], line->objects[here + 1]};
     const float tolerance = kToleranceAcross + kToleranceByMetre * left.distance;
     if (!Interpolate(pose, left, right, tolerance, line, column)) columns.push_back(column);
   }
@@ -158,8 +172,8 @@ void Renderer::CastBetween(const Pose& pose, const Line& above, const Line& belo
   std::vector<int> columns;
   for (int column = 0; column < width_; ++column) {
     const auto here = static_cast<size_t>(column);
-    const End upper{above.distances[here], above.objects[here]};
-    const End lower{below.distances[here], below.objects[here]};
+    const RayEnd upper{above.distances[here], above.objects[here]};
+    const RayEnd lower{below.distances[here], below.objects[here]};
     const float tolerance = kToleranceDown + kToleranceByMetre * lower.distance;
     if (!Interpolate(pose, upper, lower, tolerance, line, column)) columns.push_back(column);
   }
@@ -167,16 +181,13 @@ void Renderer::CastBetween(const Pose& pose, const Line& above, const Line& belo
 }
 
 // The wanted columns half-way between two lines of pixels.
-void Renderer::CastHalfway(const Pose& pose, const std::vector<uint32_t>& objects,
-                           const RenderedView& view, int upper_row, Span<const char> wanted,
-                           Line* line) const {
+void Renderer::CastHalfway(const Pose& pose, const RenderedView& view, int upper_row,
+                           Span<const char> wanted, Line* line) const {
   std::vector<int> columns;
   for (int column = 0; column < width_; ++column) {
     if (!wanted[static_cast<size_t>(column)]) continue;
-    const auto above = static_cast<size_t>(upper_row * width_ + column);
-    const size_t below = above + static_cast<size_t>(width_);
-    const End upper{view.distance[above], objects[above]};
-    const End lower{view.distance[below], objects[below]};
+    const RayEnd upper = view.End(column, upper_row);
+    const RayEnd lower = view.End(column, upper_row + 1);
     const float tolerance = kToleranceHalfway + kToleranceHalfwayByMetre * lower.distance;
     if (!Interpolate(pose, upper, lower, tolerance, line, column)) columns.push_back(column);
   }
@@ -184,13 +195,13 @@ void Renderer::CastHalfway(const Pose& pose, const std::vector<uint32_t>& object
 }
 
 void Renderer::RenderRows(const Pose& pose, const Surroundings& surroundings, int begin, int end,
-                          RenderedView* view, std::vector<uint32_t>* objects) const {
+                          RenderedView* view) const {
   const auto keep = [&](int row, const Line& line) {
     const auto start = static_cast<size_t>(row * width_);
     ShadeLine(pose, surroundings, line, {}, &view->radiance[start]);
     for (size_t i = 0; i < line.objects.size(); ++i) {
       view->distance[start + i] = line.distances[i];
-      (*objects)[start + i] = line.objects[i];
+      view->objects[start + i] = line.objects[i];
     }
   };
   Line above = Aim(pose, begin, 0.0F);
@@ -233,22 +244,20 @@ void Renderer::ShadeLine(const Pose& pose, const Surroundings& surroundings, con
   if (count > 0) flush();
 }
 
-bool Renderer::OnEdge(const std::vector<uint32_t>& objects, const std::vector<float>& distances,
-                      int column, int row) const {
-  const auto pixel = static_cast<size_t>(row * width_ + column);
-  const float distance = distances[pixel];
-  const auto differs = [&](size_t other) {
-    if (objects[pixel] != objects[other] &&
-        Class(scene_, objects[pixel]) != Class(scene_, objects[other])) {
+bool Renderer::OnEdge(const RenderedView& view, int column, int row) const {
+  const RayEnd here = view.End(column, row);
+  const auto differs = [&](int other_column, int other_row) {
+    const RayEnd other = view.End(other_column, other_row);
+    if (here.object != other.object && Class(scene_, here.object) != Class(scene_, other.object)) {
       return true;
     }
-    const float ratio = distance / distances[other];
-    return ratio > kEdgeRatio + kToleranceByMetre * distances[other] ||
-           ratio * (kEdgeRatio + kToleranceByMetre * distance) < 1.0F;
+    const float ratio = here.distance / other.distance;
+    return ratio > kEdgeRatio + kToleranceByMetre * other.distance ||
+           ratio * (kEdgeRatio + kToleranceByMetre * here.distance) < 1.0F;
   };
-  const auto width = static_cast<size_t>(width_);
-  return (column > 0 && differs(pixel - 1)) || (column + 1 < width_ && differs(pixel + 1)) ||
-         (row > 0 && differs(pixel - width)) || (row + 1 < height_ && differs(pixel + width));
+  return (column > 0 && differs(column - 1, row)) ||
+         (column + 1 < width_ && differs(column + 1, row)) ||
+         (row > 0 && differs(column, row - 1)) || (row + 1 < height_ && differs(column, row + 1));
 }
 
 // The bearing `right` and `down` of a pixel, in pixels, by central differences.
@@ -265,7 +274,7 @@ Eigen::Vector3f Renderer::Between(int column, int row, float right, float down) 
 }
 
 void Renderer::RefineRows(const Pose& pose, const Surroundings& surroundings, int begin, int end,
-                          const std::vector<uint32_t>& objects, RenderedView* view) const {
+                          RenderedView* view) const {
   std::vector<std::vector<char>> far;
   std::vector<int> edges;
   for (int row = begin; row < end; ++row) {
@@ -273,7 +282,7 @@ void Renderer::RefineRows(const Pose& pose, const Surroundings& surroundings, in
     edges.clear();
     for (int column = 0; column < width_; ++column) {
       const float distance = view->distance[static_cast<size_t>(row * width_ + column)];
-      if (OnEdge(objects, view->distance, column, row)) {
+      if (OnEdge(*view, column, row)) {
         edges.push_back(column);
       } else if (distance > kFarGround && std::isfinite(distance) && row > 0 && row + 1 < height_) {
         far_here[static_cast<size_t>(column)] = 1;
@@ -281,14 +290,13 @@ void Renderer::RefineRows(const Pose& pose, const Surroundings& surroundings, in
     }
     if (!edges.empty()) RefineEdges(pose, surroundings, row, edges, view);
   }
-  RefineFar(pose, surroundings, begin, far, objects, view);
+  RefineFar(pose, surroundings, begin, far, view);
 }
 
 // Far pixels get half of their light from their own line and a quarter each from the lines between
 // them and their neighbours: a tent over two pixels' height.
 void Renderer::RefineFar(const Pose& pose, const Surroundings& surroundings, int begin,
-                         const std::vector<std::vector<char>>& far,
-                         const std::vector<uint32_t>& objects, RenderedView* view) const {
+                         const std::vector<std::vector<char>>& far, RenderedView* view) const {
   const auto rows = static_cast<int>(far.size());
   const auto width = static_cast<size_t>(width_);
   const auto is_far = [&](int row, size_t column) {
@@ -307,7 +315,7 @@ void Renderer::RefineFar(const Pose& pose, const Surroundings& surroundings, int
     }
     if (std::find(wanted.begin(), wanted.end(), 1) == wanted.end()) continue;
     Line line = Aim(pose, begin + upper, 0.5F);
-    CastHalfway(pose, objects, *view, begin + upper, wanted, &line);
+    CastHalfway(pose, *view, begin + upper, wanted, &line);
     ShadeLine(pose, surroundings, line, wanted, between.data());
     for (const int row : {upper, upper + 1}) {
       for (size_t i = 0; i < width; ++i) {

@@ -12,19 +12,13 @@
 #include "regolith/geometry/se3.h"
 #include "regolith/sensor/camera_model.h"
 #include "regolith/sim/lamp.h"
+#include "regolith/sim/nearby_view.h"
 #include "regolith/sim/photometry.h"
+#include "regolith/sim/rendered_view.h"
 #include "regolith/sim/rover_shadow.h"
 #include "regolith/sim/scene.h"
 
 namespace regolith {
-
-/// What a camera sees in an instant, before optics and sensor; row by row.
-struct RenderedView {
-  int width = 0;
-  int height = 0;
-  std::vector<float> radiance;  ///< I/F
-  std::vector<float> distance;  ///< m along the pixel's ray; infinite for sky
-};
 
 /// What stands beside the ground and changes from frame to frame.
 struct Surroundings {
@@ -41,8 +35,9 @@ class Renderer {
   Renderer(const CameraIntrinsics& intrinsics, const Scene& scene, const Photometry& photometry,
            ThreadPool* pool);
 
-  void Render(const SE3& T_world_camera, const Surroundings& surroundings,
-              RenderedView* view) const;
+  /// `nearby`: what a camera close by sees just now, where there is one; saves rays.
+  void Render(const SE3& T_world_camera, const Surroundings& surroundings, RenderedView* view,
+              const NearbyView* nearby = nullptr) const;
 
   /// The unit vector of a pixel in the camera's frame.
   const Eigen::Vector3f& bearing(int column, int row) const {
@@ -53,9 +48,11 @@ class Renderer {
   struct Pose {
     Eigen::Matrix3f R_world_camera;
     Eigen::Vector3f origin;  // m, world
+    const NearbyView* nearby;
   };
   // The rays of an image line and what they meet.
   struct Line {
+    int row;
     std::vector<Eigen::Vector3f> directions;  // unit vectors, world
     std::vector<float> distances;             // m; infinite where nothing is met
     std::vector<uint32_t> objects;
@@ -64,33 +61,25 @@ class Renderer {
     std::vector<float> v;
   };
 
-  // Where a ray ended.
-  struct End {
-    float distance;  // m
-    uint32_t object;
-  };
-
   Line Aim(const Pose& pose, int row, float down) const;
   void CastColumns(const Pose& pose, Span<const int> columns, Line* line) const;
   void CastSparse(const Pose& pose, Line* line) const;
   void CastBetween(const Pose& pose, const Line& above, const Line& below, Line* line) const;
-  bool Interpolate(const Pose& pose, const End& one, const End& other, float tolerance, Line* line,
+  bool Interpolate(const Pose& pose, const RayEnd& one, const RayEnd& other, float tolerance, Line* line,
                    int column) const;
   void RenderRows(const Pose& pose, const Surroundings& surroundings, int begin, int end,
-                  RenderedView* view, std::vector<uint32_t>* objects) const;
+                  RenderedView* view) const;
   void ShadeLine(const Pose& pose, const Surroundings& surroundings, const Line& line,
                  Span<const char> wanted, float* radiance) const;
   void RefineRows(const Pose& pose, const Surroundings& surroundings, int begin, int end,
-                  const std::vector<uint32_t>& objects, RenderedView* view) const;
+                  RenderedView* view) const;
   void RefineFar(const Pose& pose, const Surroundings& surroundings, int begin,
-                 const std::vector<std::vector<char>>& far, const std::vector<uint32_t>& objects,
-                 RenderedView* view) const;
-  void CastHalfway(const Pose& pose, const std::vector<uint32_t>& objects, const RenderedView& view,
-                   int upper_row, Span<const char> wanted, Line* line) const;
+                 const std::vector<std::vector<char>>& far, RenderedView* view) const;
+  void CastHalfway(const Pose& pose, const RenderedView& view, int upper_row,
+                   Span<const char> wanted, Line* line) const;
   void RefineEdges(const Pose& pose, const Surroundings& surroundings, int row,
                    Span<const int> columns, RenderedView* view) const;
-  bool OnEdge(const std::vector<uint32_t>& objects, const std::vector<float>& distances, int column,
-              int row) const;
+  bool OnEdge(const RenderedView& view, int column, int row) const;
   Eigen::Vector3f Between(int column, int row, float right, float down) const;
   void Shade(const RayPacket& rays, int count, float width, float far_height,
              const Surroundings& surroundings, float* radiance) const;

@@ -11,6 +11,18 @@ namespace {
 constexpr int kSunRays = 5;
 constexpr float kGoldenAngle = 2.3999632F;  // rad
 
+// Directions spread over the sun's disc (Vogel 1979).
+void Aim(const SunDisc& sun, Eigen::Vector3f* rays) {
+  const Eigen::Vector3f across = sun.direction.unitOrthogonal();
+  const Eigen::Vector3f along = sun.direction.cross(across);
+  for (int ray = 0; ray < kSunRays; ++ray) {
+    const float radius = sun.radius * std::sqrt((static_cast<float>(ray) + 0.5F) / kSunRays);
+    const float angle = kGoldenAngle * static_cast<float>(ray);
+    const Eigen::Vector3f offset = radius * (std::cos(angle) * across + std::sin(angle) * along);
+    rays[ray] = (sun.direction + offset).normalized();
+  }
+}
+
 }  // namespace
 
 RoverShadow::RoverShadow(const std::vector<RoverBox>& body, const SE3& T_world_base) {
@@ -20,50 +32,58 @@ RoverShadow::RoverShadow(const std::vector<RoverBox>& body, const SE3& T_world_b
     box.R_box_world = T_world_box.rotation.toRotationMatrix().transpose().cast<float>();
     box.centre = T_world_box.translation.cast<float>();
     box.half = part.half_size.cast<float>();
+    box.radius = box.half.norm();
     centre_ += box.centre / static_cast<float>(body.size());
     boxes_.push_back(box);
   }
   for (const Box& box : boxes_) {
-    radius_ = std::max(radius_, (box.centre - centre_).norm() + box.half.norm());
+    radius_ = std::max(radius_, (box.centre - centre_).norm() + box.radius);
   }
+}
+
+// Slabs (Kay & Kajiya 1986).
+bool RoverShadow::Box::Meets(const Eigen::Vector3f& origin,
+                             const Eigen::Vector3f& direction) const {
+  const Eigen::Vector3f from = R_box_world * (origin - centre);
+  const Eigen::Vector3f along = R_box_world * direction;
+  float enter = 0.0F;
+  float leave = 1e9F;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float inverse = 1.0F / (std::abs(along[axis]) > 1e-9F ? along[axis] : 1e-9F);
+    const float one = (-half[axis] - from[axis]) * inverse;
+    const float other = (half[axis] - from[axis]) * inverse;
+    enter = std::max(enter, std::min(one, other));
+    leave = std::min(leave, std::max(one, other));
+  }
+  return enter < leave;
 }
 
 bool RoverShadow::Hides(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const {
-  const Eigen::Vector3f to_centre = centre_ - origin;
-  const float ahead = to_centre.dot(direction);
-  if (to_centre.squaredNorm() - ahead * ahead > radius_ * radius_ || ahead < -radius_) return false;
-  return std::any_of(boxes_.begin(), boxes_.end(), [&](const Box& box) {
-    // Slabs (Kay & Kajiya 1986).
-    const Eigen::Vector3f from = box.R_box_world * (origin - box.centre);
-    const Eigen::Vector3f along = box.R_box_world * direction;
-    float enter = 0.0F;
-    float leave = 1e9F;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float inverse = 1.0F / (std::abs(along[axis]) > 1e-9F ? along[axis] : 1e-9F);
-      const float one = (-box.half[axis] - from[axis]) * inverse;
-      const float other = (box.half[axis] - from[axis]) * inverse;
-      enter = std::max(enter, std::min(one, other));
-      leave = std::min(leave, std::max(one, other));
-    }
-    return enter < leave;
-  });
+  return std::any_of(boxes_.begin(), boxes_.end(),
+                     [&](const Box& box) { return box.Meets(origin, direction); });
 }
 
 float RoverShadow::Sunlit(const Eigen::Vector3f& place, const SunDisc& sun) const {
-  const Eigen::Vector3f to_centre = centre_ - place;
-  const float ahead = to_centre.dot(sun.direction);
-  const float reach = radius_ + sun.radius * std::max(ahead, 0.0F);
-  if (ahead < -radius_ || to_centre.squaredNorm() - ahead * ahead > reach * reach) return 1.0F;
-  const Eigen::Vector3f across = sun.direction.unitOrthogonal();
-  const Eigen::Vector3f along = sun.direction.cross(across);
-  int seen = 0;
-  for (int ray = 0; ray < kSunRays; ++ray) {
-    const float radius = sun.radius * std::sqrt((static_cast<float>(ray) + 0.5F) / kSunRays);
-    const float angle = kGoldenAngle * static_cast<float>(ray);
-    const Eigen::Vector3f offset = radius * (std::cos(angle) * across + std::sin(angle) * along);
-    seen += Hides(place, (sun.direction + offset).normalized()) ? 0 : 1;
+  // Whether a sphere may hide a part of the disc.
+  const auto may_hide = [&](const Eigen::Vector3f& centre, float radius) {
+    const Eigen::Vector3f to_centre = centre - place;
+    const float ahead = to_centre.dot(sun.direction);
+    const float reach = radius + sun.radius * std::max(ahead, 0.0F);
+    return ahead > -radius && to_centre.squaredNorm() - ahead * ahead < reach * reach;
+  };
+  if (!may_hide(centre_, radius_)) return 1.0F;
+  Eigen::Vector3f rays[kSunRays];
+  bool hidden[kSunRays] = {};
+  bool aimed = false;
+  for (const Box& box : boxes_) {
+    if (!may_hide(box.centre, box.radius)) continue;
+    if (!aimed) Aim(sun, rays);
+    aimed = true;
+    for (int ray = 0; ray < kSunRays; ++ray) {
+      hidden[ray] = hidden[ray] || box.Meets(place, rays[ray]);
+    }
   }
-  return static_cast<float>(seen) / kSunRays;
+  return 1.0F - static_cast<float>(std::count(hidden, hidden + kSunRays, true)) / kSunRays;
 }
 
 }  // namespace regolith

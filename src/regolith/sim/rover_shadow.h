@@ -29,6 +29,9 @@ class RoverShadow {
     Eigen::Matrix3f R_box_world;
     Eigen::Vector3f centre;  // m, world
     Eigen::Vector3f half;    // m
+    float radius;            // m, of the sphere around it
+
+    bool Meets(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
   };
 
   std::vector<Box> boxes_;

@@ -174,7 +174,7 @@ class RoverSimulator : public Simulator {
   SensorEvent NextScan();
   SensorEvent NextFrame();
   void Settle(double time);
-  Exposure ChooseExposure(const std::string& camera);
+  Exposure ChooseExposure(const std::string& camera, const RenderedView& view);
   Lamp LampAt(const SE3& T_world_base) const;
   void ChangeOtherSun(int index);
 
@@ -190,6 +190,8 @@ class RoverSimulator : public Simulator {
   CameraSimulator camera_;
   std::map<std::string, ExposureControl> exposure_controls_;
   std::map<std::string, Exposure> exposures_;
+  RenderedView first_view_;
+  std::unique_ptr<NearbyView> nearby_;
   RenderedView view_;
   int64_t settled_ = -1;
   std::unique_ptr<OtherSun> other_sun_;
@@ -252,10 +254,10 @@ void RoverSimulator::Settle(double time) {
 }
 
 // The right camera is exposed as the left one, so that a pair looks alike.
-Exposure RoverSimulator::ChooseExposure(const std::string& camera) {
+Exposure RoverSimulator::ChooseExposure(const std::string& camera, const RenderedView& view) {
   if (camera == "right") return exposures_.at("left");
   ExposureControl& control = exposure_controls_.try_emplace(camera, options_.camera).first->second;
-  return exposures_[camera] = control.Next(view_);
+  return exposures_[camera] = control.Next(view);
 }
 
 Lamp RoverSimulator::LampAt(const SE3& T_world_base) const {
@@ -281,9 +283,19 @@ SensorEvent RoverSimulator::NextFrame() {
   const MotionState motion = motion_.At(camera_schedule_.true_time());
   const SE3 T_world_base = motion.T_world_imu * BaseFromImu().Inverse();
   const SE3 T_imu_camera = BaseFromImu().Inverse() * BaseFromCamera(options_.camera, frame.camera);
+  const SE3 T_world_camera = motion.T_world_imu * T_imu_camera;
   const RoverShadow rover(RoverBody(), T_world_base);
-  renderer_.Render(motion.T_world_imu * T_imu_camera, {&rover, LampAt(T_world_base)}, &view_);
-  frame.image = camera_.Expose(view_, MotionOf(motion, T_imu_camera), ChooseExposure(frame.camera),
+  // The first camera stands between the others and spares them rays.
+  const bool is_first = next_camera_ == 0;
+  RenderedView& view = is_first ? first_view_ : view_;
+  renderer_.Render(T_world_camera, {&rover, LampAt(T_world_base)}, &view,
+                   is_first ? nullptr : nearby_.get());
+  if (is_first) {
+    nearby_ = std::make_unique<NearbyView>(view, T_world_camera, MakeIntrinsics(options_.camera),
+                                           0.5 * options_.camera.baseline, *scene_);
+  }
+  frame.image = camera_.Expose(view, MotionOf(motion, T_imu_camera),
+                               ChooseExposure(frame.camera, view),
                                StreamSeed(options_.seed, frame.camera), camera_schedule_.next);
   if (++next_camera_ == std::size(kCameras)) {
     next_camera_ = 0;
