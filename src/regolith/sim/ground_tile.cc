@@ -12,7 +12,6 @@ namespace {
 constexpr float kSlopeScale = 8192.0F;  // slopes up to 4
 constexpr float kAlbedoScale = 32767.0F;
 constexpr float kLightScale = 8191.0F;  // up to 4: a cliff that faces a low sun
-constexpr float kFillScale = 32767.0F;
 constexpr double kSkirtDepth = 1.5;  // of the spacing
 constexpr int kMostTaps = 4;
 
@@ -27,7 +26,9 @@ int16_t Pack(float value, float scale) {
 }  // namespace
 
 GroundTile::GroundTile(const Ground& ground, const Eigen::Vector2d& corner, double spacing)
-    : corner_(corner.cast<float>()), spacing_(static_cast<float>(spacing)) {
+    : corner_(corner.cast<float>()),
+      spacing_(static_cast<float>(spacing)),
+      fill_(static_cast<size_t>(kFillPosts * kFillPosts), 0.0F) {
   int start = 0;
   for (int mip = 0; mip < kMips; ++mip) {
     mip_starts_[mip] = start;
@@ -86,26 +87,18 @@ void GroundTile::SetSunlight(const std::vector<float>& sunlit, const Eigen::Vect
   for (int mip = 1; mip < kMips; ++mip) Average(mip);
 }
 
-void GroundTile::SetFill(const std::vector<float>& fill) {
-  for (int mip = 0; mip < kMips; ++mip) {
-    const int posts = MipPosts(mip);
-    const float step = static_cast<float>(kFillPosts - 1) / static_cast<float>(posts - 1);
-    for (int j = 0; j < posts; ++j) {
-      for (int i = 0; i < posts; ++i) {
-        const float u = step * static_cast<float>(i);
-        const float v = step * static_cast<float>(j);
-        const int column = std::min(static_cast<int>(u), kFillPosts - 2);
-        const int row = std::min(static_cast<int>(v), kFillPosts - 2);
-        const float a = u - static_cast<float>(column);
-        const float b = v - static_cast<float>(row);
-        const float* low = &fill[static_cast<size_t>(row * kFillPosts + column)];
-        const float* high = low + kFillPosts;
-        const float value = (1.0F - b) * ((1.0F - a) * low[0] + a * low[1]) +
-                            b * ((1.0F - a) * high[0] + a * high[1]);
-        Mip(mip)[j * posts + i].fill = Pack(value, kFillScale);
-      }
-    }
-  }
+float GroundTile::FillAt(float i, float j) const {
+  constexpr float kLast = kFillPosts - 1;
+  const float u = std::clamp(i / kFillStep, 0.0F, kLast);
+  const float v = std::clamp(j / kFillStep, 0.0F, kLast);
+  const int column = std::min(static_cast<int>(u), kFillPosts - 2);
+  const int row = std::min(static_cast<int>(v), kFillPosts - 2);
+  const float a = u - static_cast<float>(column);
+  const float b = v - static_cast<float>(row);
+  const float* low = &fill_[static_cast<size_t>(row * kFillPosts + column)];
+  const float* high = low + kFillPosts;
+  return (1.0F - b) * ((1.0F - a) * low[0] + a * low[1]) +
+         b * ((1.0F - a) * high[0] + a * high[1]);
 }
 
 // A tent over the finer texels, kept inside the tile.
@@ -194,7 +187,7 @@ SurfacePoint GroundTile::At(float x, float y, float width, float length,
   point.normal = Eigen::Vector3f(-sum[0] / kSlopeScale, -sum[1] / kSlopeScale, 1.0F).normalized();
   point.albedo = sum[2] / kAlbedoScale;
   point.light = point.normal.z() * sum[3] / kLightScale;
-  point.fill = sum[4] / kFillScale;
+  point.fill = FillAt(i, j);
   return point;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -44,32 +45,31 @@ class GroundTile {
   /// `sunlit`: kPosts² shares of the sun's disc that are seen; the sun lies in direction `sun`.
   void SetSunlight(const std::vector<float>& sunlit, const Eigen::Vector3f& sun);
   /// `fill`: kFillPosts² values.
-  void SetFill(const std::vector<float>& fill);
+  void SetFill(std::vector<float> fill) { fill_ = std::move(fill); }
 
   /// The mean over a patch about (x, y), m, world: `width` m across, and `length` m along the unit
   /// vector `along` of the plane.
   SurfacePoint At(float x, float y, float width, float length, const Eigen::Vector2f& along) const;
 
  private:
-  // Fixed point: half the memory of floats. `light` is what a square metre of plan catches (sunlit
-  // share · cosine of incidence / normal.z): its mean does not change with the posts' spacing.
-  // Eight numbers, of which five are used: one vector register.
-  struct alignas(16) Texel {
+  // Fixed point, eight bytes: memory is what a look waits for. `light` is what a square metre of
+  // plan catches (sunlit share · cosine of incidence / normal.z): its mean does not change with the
+  // posts' spacing.
+  struct alignas(8) Texel {
     int16_t slope_x = 0;
     int16_t slope_y = 0;
     int16_t albedo = 0;
     int16_t light = 0;
-    int16_t fill = 0;
-    int16_t unused[3] = {};
   };
-  typedef int16_t TexelVector __attribute__((vector_size(16)));
-  typedef float Sum __attribute__((vector_size(32)));
+  typedef int16_t TexelVector __attribute__((vector_size(8)));
+  typedef float Sum __attribute__((vector_size(16)));
   static constexpr int kMips = 5;
 
   static constexpr int MipPosts(int mip) { return (kTileCells >> mip) + 1; }
   Texel* Mip(int mip) { return texels_.data() + mip_starts_[mip]; }
   const Texel* Mip(int mip) const { return texels_.data() + mip_starts_[mip]; }
   void Average(int mip);
+  float FillAt(float i, float j) const;
   void AddBilinear(int mip, float i, float j, float weight, Sum* sum) const;
 
   Eigen::Vector2f corner_;
@@ -77,6 +77,7 @@ class GroundTile {
   std::vector<Eigen::Vector3f> positions_;
   std::vector<Texel> texels_;  ///< mips, finest first
   int mip_starts_[kMips];
+  std::vector<float> fill_;  ///< kFillPosts²
 };
 
 }  // namespace regolith

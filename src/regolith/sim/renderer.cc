@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "regolith/core/check.h"
+#include "regolith/sim/sunlight.h"
 
 namespace regolith {
 namespace {
@@ -251,6 +252,8 @@ bool Renderer::OnEdge(const RenderedView& view, int column, int row) const {
     if (here.object != other.object && Class(scene_, here.object) != Class(scene_, other.object)) {
       return true;
     }
+    // Far crests are looked at between the lines.
+    if (std::min(here.distance, other.distance) > kFarGround) return false;
     const float ratio = here.distance / other.distance;
     return ratio > kEdgeRatio + kToleranceByMetre * other.distance ||
            ratio * (kEdgeRatio + kToleranceByMetre * here.distance) < 1.0F;

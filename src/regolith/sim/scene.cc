@@ -14,18 +14,13 @@
 #include "regolith/core/check.h"
 #include "regolith/sim/fill_light.h"
 #include "regolith/sim/rock_grain.h"
+#include "regolith/sim/sunlight.h"
 #include "regolith/sim/tile_tree.h"
 
 namespace regolith {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kGoldenAngle = 2.3999632F;  // rad
-constexpr int kSunRays = 4;                 // a place
-constexpr float kFarAway = 2e4F;            // m
-// Rays of light start above the post by this share of the posts' spacing, so that neither rounding
-// nor a coarser neighbour's seam shades it.
-constexpr float kShadowLift = 0.2F;
 constexpr uint32_t kSeedStep = 0x9e3779b9U;  // between two rocks' grains
 
 struct RockBand {
@@ -310,19 +305,10 @@ void EmbreeScene::Commit(const std::vector<Tile*>& made) {
 // Fill light is one bounce of the sunlight, so all of that comes first.
 void EmbreeScene::CastLight(const std::vector<Tile*>& tiles) {
   pool_->ParallelFor(tiles.size(), 1, [&](size_t begin, size_t end, size_t) {
-    std::vector<Eigen::Vector3f> places;
-    std::vector<float> sunlit(static_cast<size_t>(GroundTile::kPosts * GroundTile::kPosts));
     for (size_t i = begin; i < end; ++i) {
       GroundTile& ground = *tiles[i]->ground;
-      places.clear();
-      for (int row = 0; row < GroundTile::kPosts; ++row) {
-        for (int column = 0; column < GroundTile::kPosts; ++column) {
-          places.push_back(ground.Post(column, row) +
-                           kShadowLift * ground.spacing() * ground.Normal(column, row));
-        }
-      }
-      CastSunlight(*this, photometry_.sun(), places, sunlit.data());
-      ground.SetSunlight(sunlit, photometry_.sun().direction);
+      ground.SetSunlight(CastSunlightOnTile(*this, photometry_.sun(), ground),
+                         photometry_.sun().direction);
     }
   });
   std::vector<std::vector<float>> fills(tiles.size());
@@ -332,9 +318,7 @@ void EmbreeScene::CastLight(const std::vector<Tile*>& tiles) {
     }
   });
   // Not before all are cast: tiles see each other.
-  pool_->ParallelFor(tiles.size(), 1, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i) tiles[i]->ground->SetFill(fills[i]);
-  });
+  for (size_t i = 0; i < tiles.size(); ++i) tiles[i]->ground->SetFill(std::move(fills[i]));
 }
 
 SurfacePoint EmbreeScene::Look(const RayPacket& rays, int lane, float width, float height) const {
@@ -391,42 +375,6 @@ std::vector<Rock> RocksAroundPath(const Surface& surface, Span<const Eigen::Vect
     }
   }
   return rocks;
-}
-
-void CastSunlight(const Scene& scene, const SunDisc& sun, Span<const Eigen::Vector3f> places,
-                  float* sunlit) {
-  constexpr size_t kPlacesAtOnce = kPacketSize / kSunRays;
-  if (sun.direction.z() <= 0.0F) {
-    std::fill(sunlit, sunlit + places.size(), 0.0F);
-    return;
-  }
-  const Eigen::Vector3f across = sun.direction.unitOrthogonal();
-  const Eigen::Vector3f along = sun.direction.cross(across);
-  Eigen::Vector3f to_sun[kSunRays];
-  for (int ray = 0; ray < kSunRays; ++ray) {
-    const float radius = sun.radius * std::sqrt((static_cast<float>(ray) + 0.5F) / kSunRays);
-    const float angle = kGoldenAngle * static_cast<float>(ray);
-    to_sun[ray] = (sun.direction + radius * (std::cos(angle) * across + std::sin(angle) * along))
-                      .normalized();
-  }
-  RayPacket rays;
-  for (size_t first = 0; first < places.size(); first += kPlacesAtOnce) {
-    for (int lane = 0; lane < kPacketSize; ++lane) {
-      const size_t place = first + static_cast<size_t>(lane / kSunRays);
-      if (place < places.size()) {
-        rays.Set(lane, places[place], to_sun[lane % kSunRays], kFarAway);
-      } else {
-        rays.Off(lane);
-      }
-    }
-    scene.Occluded(&rays);
-    for (size_t i = 0; i < kPlacesAtOnce && first + i < places.size(); ++i) {
-      const float* distances = rays.distance + i * kSunRays;
-      const auto seen = std::count_if(distances, distances + kSunRays,
-                                      [](float distance) { return distance > 0.0F; });
-      sunlit[first + i] = static_cast<float>(seen) / kSunRays;
-    }
-  }
 }
 
 std::unique_ptr<Scene> Scene::Create(const Ground& ground, Span<const Eigen::Vector2d> path,

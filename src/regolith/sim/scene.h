@@ -55,9 +55,4 @@ class Scene {
 /// 20 cm on within 100 m, from 60 cm on within 300 m.
 std::vector<Rock> RocksAroundPath(const Surface& surface, Span<const Eigen::Vector2d> path);
 
-/// Share of the sun's disc that is seen from each of the places (m, world), by some rays each to
-/// points spread over the disc (Vogel 1979), so that shadows have penumbras.
-void CastSunlight(const Scene& scene, const SunDisc& sun, Span<const Eigen::Vector3f> places,
-                  float* sunlit);
-
 }  // namespace regolith

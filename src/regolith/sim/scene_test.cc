@@ -89,7 +89,7 @@ TEST(TileTree, CoversTheGroundOnceAndFinelyAlongThePath) {
     double distance = 1e9;
     for (const Eigen::Vector2d& point : path) distance = std::min(distance, (place - point).norm());
     const double from_rover = (place - Eigen::Vector2d(20.0, 0.0)).norm();
-    if (distance < 5.0 && from_rover < 3.5) {
+    if (distance < 5.0 && from_rover < 2.5) {
       EXPECT_LE(spacing, 0.005);
     }
     if (distance < 5.0 && from_rover < 7.5) {
