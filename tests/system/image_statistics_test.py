@@ -10,8 +10,8 @@ pixels are a frame; the lower half gives 8 × 4 tiles a frame, 64 in all. Two of
 upper left, hold sky and are left out.
 
 What the two do not share. The real ground is 14 to 35 m away (parallax of the pair, base 0.42 m),
-ours 1 to 13 m. The average is sharper than any lens: blurred by ours (0.45 pixel), the real spectra
-would be steeper by 0.6, so the test is the stricter for it. The public frames are 8 bit JPEGs; if
+ours 1 to 13 m. The average is sharper than any lens: blurred by ours (0.35 pixel), the real spectra
+would be steeper, so the test is the stricter for it. The public frames are 8 bit JPEGs; if
 they were companded (square root), the true contrasts are up to twice as high.
 """
 

@@ -56,13 +56,19 @@ ScenarioOptions ResolveScenario(const SimulateArguments& arguments) {
 
 std::unique_ptr<Simulator> MakeSimulator(const SimulateArguments& arguments,
                                          const ScenarioOptions& options, ThreadPool* pool) {
-  if (arguments.dem.empty()) return Simulator::Create(options, nullptr, pool);
+  const std::string wait = Concatenate("planning a drive of ", options.duration,
+                                       " s and lighting the ground around it takes some seconds");
+  if (arguments.dem.empty()) {
+    LogInfo(wait);
+    return Simulator::Create(options, nullptr, pool);
+  }
   const HeightGrid dem = ReadHeights(arguments.dem);
   const size_t spikes = AssessDem(dem).spikes.size();
   if (spikes > 0) {
     LogWarning(Concatenate(arguments.dem, ": ", spikes,
                            " spikes stay in the ground; regolith terrain --repair takes them out"));
   }
+  LogInfo(wait);
   try {
     return Simulator::Create(options, &dem, pool);
   } catch (const InputError& error) {
@@ -154,8 +160,6 @@ int Simulate(const SimulateArguments& arguments) {
   SetQuiet(arguments.quiet);
   const ScenarioOptions options = ResolveScenario(arguments);
   ThreadPool threads(arguments.threads);
-  LogInfo(Concatenate("planning a drive of ", options.duration,
-                      " s and lighting the ground around it: takes some seconds"));
   const auto simulator = MakeSimulator(arguments, options, &threads);
   if (StopRequested()) return kInterrupted;
   PrepareOutputFolder(arguments.out, arguments.overwrite);

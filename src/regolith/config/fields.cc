@@ -91,13 +91,18 @@ std::string Join(const std::set<std::string>& words) {
   return joined;
 }
 
-// The shortest decimal text that reads back as the same double.
+// The shortest decimal text that reads back as the same double. YAML 1.1 takes 2e-05 for a word.
 std::string NumberText(double value) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
   char buffer[64];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return {buffer, end};
+  std::string text(buffer, end);
+  const size_t exponent = text.find('e');
+  if (exponent != std::string::npos && text.find('.') == std::string::npos) {
+    text.insert(exponent, ".0");
+  }
+  return text;
 }
 
 std::string QuotedText(const std::string& text) {

@@ -107,6 +107,7 @@ class Planner {
   }
   double allowed() const { return options_.max_slope_deg * kDegree - kReserve; }
   std::vector<Placement> Placements();
+  void CheckWaypointsAreKnown() const;
   std::optional<double> Score(const Placement& placement) const;
   std::optional<Route> Plan(const Placement& placement);
   std::optional<Eigen::Vector2d> Start(const Placement& placement);
@@ -115,6 +116,8 @@ class Planner {
   Eigen::Vector2d Target(const Eigen::Vector2d& wanted, double reach);
   void Measure(const Eigen::Vector2d& position, double yaw, Check* check);
   void MeasureTurn(const Eigen::Vector2d& position, Check* check);
+  bool Passes(const Check& check);
+  [[noreturn]] void ReportFailure() const;
   double Pace(const Route& route) const;
   double Badness(const Route& route);
 
@@ -125,7 +128,29 @@ class Planner {
   DriveMap map_;
   std::vector<NominalLeg> nominal_;
   Random random_;
+  int unstable_ = 0;  // checks that failed since a wheel could not reach the ground
+  int steep_ = 0;     // since body or ground were too steep
 };
+
+bool Planner::Passes(const Check& check) {
+  if (check.stands && check.steepest <= allowed()) return true;
+  ++(check.stands ? steep_ : unstable_);
+  return false;
+}
+
+void Planner::ReportFailure() const {
+  if (unstable_ > steep_) {
+    throw InputError("rover.rocker_travel",
+                     Concatenate(rover_.rocker_travel,
+                                 " m is too little for the ground: no route was found on which all "
+                                 "wheels touch it; allow more, or choose gentler relief"));
+  }
+  throw InputError(
+      "drive.max_slope_deg",
+      Concatenate("no route below ", options_.max_slope_deg,
+                  " degrees of slope was found; choose another --seed, gentler relief, a shorter "
+                  "drive.length or a flatter crop, or move the waypoints"));
+}
 
 // Shares of the nominal route that are steep: much too steep is bad, some slope is wanted.
 std::optional<double> Planner::Score(const Placement& placement) const {
@@ -150,8 +175,23 @@ std::optional<double> Planner::Score(const Placement& placement) const {
   return share - std::min(static_cast<double>(wanted) / points, 0.1);
 }
 
+void Planner::CheckWaypointsAreKnown() const {
+  for (const NominalLeg& leg : nominal_) {
+    for (const Eigen::Vector2d& place : {leg.from, leg.to}) {
+      if (surface_.Known(place.x(), place.y(), kKnownMargin)) continue;
+      throw InputError("drive.waypoints",
+                       Concatenate("(", place.x(), ", ", place.y(),
+                                   ") lies beyond the terrain or in one of its holes; expected "
+                                   "places of the map, m from its middle"));
+    }
+  }
+}
+
 std::vector<Placement> Planner::Placements() {
-  if (placed_by_user()) return {Placement{}};
+  if (placed_by_user()) {
+    CheckWaypointsAreKnown();
+    return {Placement{}};
+  }
   const Eigen::AlignedBox2d box = surface_.box();
   std::vector<Placement> found;
   for (int i = 0; i < kCandidates; ++i) {
@@ -172,6 +212,10 @@ std::vector<Placement> Planner::Placements() {
     if (!score) continue;
     placement.score = *score;
     found.push_back(placement);
+  }
+  if (found.empty() && options_.route == "waypoints") {
+    throw InputError("drive.waypoints",
+                     "fit nowhere on known ground; use nearer ones or a larger elevation model");
   }
   if (found.empty()) {
     throw InputError("drive.length",
@@ -241,7 +285,7 @@ std::optional<CheckedLeg> Planner::Repaired(LegRequest request, double target_re
       Measure(sample.position, sample.yaw, &check);
     }
     MeasureTurn(points->back(), &check);
-    if (check.stands && check.steepest <= allowed()) return CheckedLeg{*points, check.steepest};
+    if (Passes(check)) return CheckedLeg{*points, check.steepest};
     if ((check.place - request.start).norm() < 1.0) return std::nullopt;
     map_.Block(check.place, 0.5);
   }
@@ -264,7 +308,7 @@ std::optional<Eigen::Vector2d> Planner::Start(const Placement& placement) {
     const Eigen::Vector2d place = Target(wanted, kTargetReach);
     Check check;
     MeasureTurn(place, &check);
-    if (check.stands && check.steepest <= allowed()) return place;
+    if (Passes(check)) return place;
     map_.Block(place, 0.5);
   }
   return std::nullopt;
@@ -385,11 +429,7 @@ Route Planner::Find() {
     const std::optional<Route> best = BestAmong(Placements());
     if (best) return *best;
   }
-  throw InputError(
-      "drive.max_slope_deg",
-      Concatenate("no route below ", options_.max_slope_deg,
-                  " degrees of slope was found; choose another --seed, gentler relief, a shorter "
-                  "drive.length or a flatter crop, or move the waypoints"));
+  ReportFailure();
 }
 
 double Planner::SteepestOf(const std::vector<PlanarPose>& path, Eigen::Vector2d* place) {

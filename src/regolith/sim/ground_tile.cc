@@ -12,7 +12,7 @@ namespace {
 constexpr float kSlopeScale = 8192.0F;  // slopes up to 4
 constexpr float kAlbedoScale = 32767.0F;
 constexpr float kLightScale = 8191.0F;  // up to 4: a cliff that faces a low sun
-constexpr double kSkirtDepth = 1.5;  // of the spacing
+constexpr double kSkirtDepth = 1.5;     // of the spacing
 constexpr int kMostTaps = 4;
 
 int16_t PackSlope(double slope) {
@@ -97,8 +97,7 @@ float GroundTile::FillAt(float i, float j) const {
   const float b = v - static_cast<float>(row);
   const float* low = &fill_[static_cast<size_t>(row * kFillPosts + column)];
   const float* high = low + kFillPosts;
-  return (1.0F - b) * ((1.0F - a) * low[0] + a * low[1]) +
-         b * ((1.0F - a) * high[0] + a * high[1]);
+  return (1.0F - b) * ((1.0F - a) * low[0] + a * low[1]) + b * ((1.0F - a) * high[0] + a * high[1]);
 }
 
 // A tent over the finer texels, kept inside the tile.

@@ -8,7 +8,7 @@ namespace regolith {
 /// far apart; and how its light is cast.
 struct MeshOptions {
   double spacing = 0.005;  ///< m; 0.005, 0.01, 0.02 or 0.04
-  double reach = 1000.0;  ///< m, from the path to the ground's border
+  double reach = 1000.0;   ///< m, from the path to the ground's border
   bool interreflection =
       true;  ///< shadows are filled by light from lit ground around, not sky only
 };

@@ -131,8 +131,8 @@ void Renderer::CastColumns(const Pose& pose, Span<const int> columns, Line* line
 }
 
 // The ray half-way between two that see the sky, or nearly the same place of the ground.
-bool Renderer::Interpolate(const Pose& pose, const RayEnd& one, const RayEnd& other, float tolerance,
-                           Line* line, int column) const {
+bool Renderer::Interpolate(const Pose& pose, const RayEnd& one, const RayEnd& other,
+                           float tolerance, Line* line, int column) const {
   if (one.object == kNothing || other.object == kNothing) return one.object == other.object;
   if (scene_.IsRock(one.object) || scene_.IsRock(other.object)) return false;
   const float nearer = std::min(one.distance, other.distance);

@@ -65,8 +65,8 @@ class Renderer {
   void CastColumns(const Pose& pose, Span<const int> columns, Line* line) const;
   void CastSparse(const Pose& pose, Line* line) const;
   void CastBetween(const Pose& pose, const Line& above, const Line& below, Line* line) const;
-  bool Interpolate(const Pose& pose, const RayEnd& one, const RayEnd& other, float tolerance, Line* line,
-                   int column) const;
+  bool Interpolate(const Pose& pose, const RayEnd& one, const RayEnd& other, float tolerance,
+                   Line* line, int column) const;
   void RenderRows(const Pose& pose, const Surroundings& surroundings, int begin, int end,
                   RenderedView* view) const;
   void ShadeLine(const Pose& pose, const Surroundings& surroundings, const Line& line,

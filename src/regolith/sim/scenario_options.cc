@@ -17,6 +17,9 @@ void CheckRange(const std::string& key, double value, double low, double high,
       key, Concatenate(value, " is out of bounds; expected ", low, " to ", high, " ", unit));
 }
 
+// Ground is made for the whole of a route.
+constexpr double kFarthestWaypoint = 2000.0;  // m
+
 void CheckWaypoints(const DriveOptions& drive) {
   const std::string& frame = drive.waypoint_frame;
   if (frame != "start" && frame != "map") {
@@ -29,6 +32,9 @@ void CheckWaypoints(const DriveOptions& drive) {
     throw InputError("drive.waypoints",
                      Concatenate("has ", count, " numbers; expected x y of ",
                                  frame == "map" ? "two places or more" : "one place or more"));
+  }
+  for (const double coordinate : drive.waypoints) {
+    CheckRange("drive.waypoints", coordinate, -kFarthestWaypoint, kFarthestWaypoint, "m");
   }
 }
 

@@ -70,7 +70,7 @@ struct CameraOptions {
   double min_exposure = 0.002;                                  ///< s
   double max_exposure = 0.020;                                  ///< s
   double max_gain = 8.0;             ///< amplification where the longest exposure is too dark
-  double lens_blur = 0.45;           ///< pixels, standard deviation of the lens' point spread
+  double lens_blur = 0.35;           ///< pixels, standard deviation of the lens' point spread
   bool motion_blur = true;           ///< the image is smeared by the motion while it is exposed
   bool noise = true;                 ///< shot and read noise
   double full_well = 10700.0;        ///< electrons at 255 (IMX255: EMVA data sheet)

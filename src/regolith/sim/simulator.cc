@@ -294,9 +294,9 @@ SensorEvent RoverSimulator::NextFrame() {
     nearby_ = std::make_unique<NearbyView>(view, T_world_camera, MakeIntrinsics(options_.camera),
                                            0.5 * options_.camera.baseline, *scene_);
   }
-  frame.image = camera_.Expose(view, MotionOf(motion, T_imu_camera),
-                               ChooseExposure(frame.camera, view),
-                               StreamSeed(options_.seed, frame.camera), camera_schedule_.next);
+  frame.image =
+      camera_.Expose(view, MotionOf(motion, T_imu_camera), ChooseExposure(frame.camera, view),
+                     StreamSeed(options_.seed, frame.camera), camera_schedule_.next);
   if (++next_camera_ == std::size(kCameras)) {
     next_camera_ = 0;
     ++camera_schedule_.next;

@@ -19,8 +19,8 @@ constexpr Ring kRings[] = {{0.005, 5.0}, {0.01, 8.0}, {0.02, 12.0}, {0.04, 24.0}
 constexpr double kReachBySpacing = 500.0;
 constexpr double kRoverReachBySpacing = 800.0;
 // The finest posts cost the most and are seen best just before the rover.
-constexpr double kFinest = 0.005;      // m
-constexpr double kFinestReach = 3.0;   // m
+constexpr double kFinest = 0.005;     // m
+constexpr double kFinestReach = 3.0;  // m
 
 // Path points that can decide about a square: those within the coarsest reach of its border.
 std::vector<Eigen::Vector2d> Near(const Eigen::AlignedBox2d& box, double reach,
