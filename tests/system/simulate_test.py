@@ -189,7 +189,7 @@ class Draft(ProgramTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertNotIn("raft", (out / "scenario.yaml").read_text())
         mesh = read_yaml(out / "scenario.yaml")["mesh"]
-        self.assertEqual((mesh["spacing"], mesh["interreflection"]), (0.01, True))
+        self.assertEqual((mesh["spacing"], mesh["interreflection"]), (0.005, True))
 
 
 if __name__ == "__main__":

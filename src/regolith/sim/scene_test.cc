@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "regolith/sim/nearby_view.h"
 #include "regolith/sim/renderer.h"
 #include "regolith/sim/rover_geometry.h"
 #include "regolith/sim/tile_tree.h"
@@ -219,6 +220,50 @@ TEST_F(SceneTest, TheSkyOfTheMoonIsBlackAndItsGroundIsNot) {
   }
   EXPECT_GT(sky, 160 * 20);
   EXPECT_GT(lit, 160 * 60);
+}
+
+// A camera that takes its rays' ends from its neighbour sees what it would have seen by itself,
+// behind rocks and a wall too.
+TEST_F(SceneTest, ANearbyViewSparesRaysAndChangesNothing) {
+  surface_.wall_at = 6.0;
+  surface_.wall_height = 0.5;
+  std::vector<Rock> rocks;
+  for (int i = 0; i < 12; ++i) {
+    Rock rock;
+    rock.centre = {2.0 + 0.4 * i, 1.5 * std::sin(2.3 * i)};
+    rock.ground = surface_.Height(rock.centre.x(), rock.centre.y(), 0.0);
+    rock.diameter = 0.1 + 0.03 * i;
+    rocks.push_back(rock);
+  }
+  Make(rocks, 0.01);
+  const CameraOptions options;
+  const CameraIntrinsics intrinsics = MakeIntrinsics(options);
+  const Renderer renderer(intrinsics, *scene_, photometry_, &pool_);
+  RenderedView middle;
+  const SE3 T_world_middle = BaseFromCamera(options, "mono");
+  const SE3 T_world_right = BaseFromCamera(options, "right");
+  renderer.Render(T_world_middle, Surroundings{}, &middle);
+  const NearbyView nearby(middle, T_world_middle, intrinsics, 0.5 * options.baseline, *scene_);
+  RenderedView spared;
+  RenderedView full;
+  renderer.Render(T_world_right, Surroundings{}, &spared, &nearby);
+  renderer.Render(T_world_right, Surroundings{}, &full);
+  int found = 0;
+  int different = 0;
+  for (int row = 0; row < intrinsics.height; ++row) {
+    for (int column = 0; column < intrinsics.width; ++column) {
+      const Eigen::Vector3f direction =
+          T_world_right.rotation.cast<float>() * renderer.bearing(column, row);
+      found += nearby.Find(column, row, T_world_right.translation.cast<float>(), direction) ? 1 : 0;
+      const float one = spared.End(column, row).distance;
+      const float other = full.End(column, row).distance;
+      if (std::isinf(one) && std::isinf(other)) continue;
+      different += std::abs(one - other) < 0.01F * other ? 0 : 1;
+    }
+  }
+  const int pixels = intrinsics.width * intrinsics.height;
+  EXPECT_GT(found, pixels * 7 / 10);
+  EXPECT_LT(different, pixels / 1000);
 }
 
 TEST_F(SceneTest, TheRoverShadesTheGround) {
