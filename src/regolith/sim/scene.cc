@@ -28,6 +28,9 @@ struct RockBand {
   double reach;     // m from the path
 };
 constexpr RockBand kRockBands[] = {{0.05, 20.0}, {0.2, 100.0}, {0.6, 300.0}};
+// A rock stands in the scene while the rover is nearer than this many of its diameters: beyond, it
+// is narrower than a pixel.
+constexpr double kRockReachByDiameter = 500.0;
 
 // An Embree scene of its own, for an instance.
 class Part {
@@ -108,6 +111,7 @@ class EmbreeScene : public Scene {
       : ground_(ground),
         tree_(options, path),
         rocks_(std::move(rocks)),
+        placed_(rocks_.size(), 0),
         shapes_(ground.surface().RockShapes()),
         photometry_(photometry),
         interreflection_(options.interreflection),
@@ -117,7 +121,10 @@ class EmbreeScene : public Scene {
     REGOLITH_CHECK(device_ != nullptr, "Embree gave no device");
     scene_ = rtcNewScene(device_);
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-    AddRocks();
+    for (const RockShape& shape : shapes_) {
+      parts_.push_back(std::make_unique<Part>(device_, RockGeometry(device_, shape)));
+    }
+    next_id_ = static_cast<uint32_t>(rocks_.size());
     MoveTo(path[0]);
   }
 
@@ -185,7 +192,7 @@ class EmbreeScene : public Scene {
     std::unique_ptr<Part> part;
   };
 
-  void AddRocks();
+  bool ExchangeRocks(const Eigen::Vector2d& position);
   void Instance(RTCScene part, const std::array<float, 12>& placement, uint32_t id);
   std::vector<Tile*> Exchange(const std::vector<TileKey>& wanted);
   void Commit(const std::vector<Tile*>& made);
@@ -213,6 +220,7 @@ class EmbreeScene : public Scene {
   const Ground& ground_;
   TileTree tree_;
   std::vector<Rock> rocks_;
+  std::vector<char> placed_;  // by rock: 1 where it stands in the scene
   std::vector<RockShape> shapes_;
   const Photometry& photometry_;
   bool interreflection_;
@@ -228,15 +236,25 @@ class EmbreeScene : public Scene {
   std::vector<const GroundTile*> by_id_;  // from the first tile's id on
 };
 
-void EmbreeScene::AddRocks() {
-  for (const RockShape& shape : shapes_) {
-    parts_.push_back(std::make_unique<Part>(device_, RockGeometry(device_, shape)));
-  }
+// Places the rocks that the rover can see now, and takes the others away. Whether any changed.
+bool EmbreeScene::ExchangeRocks(const Eigen::Vector2d& position) {
+  bool changed = false;
   for (size_t i = 0; i < rocks_.size(); ++i) {
-    REGOLITH_CHECK(rocks_[i].shape < parts_.size(), "rock of shape ", rocks_[i].shape);
-    Instance(parts_[rocks_[i].shape]->scene(), Placement(rocks_[i]), static_cast<uint32_t>(i));
+    const Rock& rock = rocks_[i];
+    const double reach = kRockReachByDiameter * rock.diameter;
+    const bool wanted = (rock.centre - position).squaredNorm() < reach * reach;
+    if (wanted == (placed_[i] != 0)) continue;
+    changed = true;
+    placed_[i] = wanted ? 1 : 0;
+    const auto id = static_cast<uint32_t>(i);
+    if (wanted) {
+      REGOLITH_CHECK(rock.shape < parts_.size(), "rock of shape ", rock.shape);
+      Instance(parts_[rock.shape]->scene(), Placement(rock), id);
+    } else {
+      rtcDetachGeometry(scene_, id);
+    }
   }
-  next_id_ = static_cast<uint32_t>(rocks_.size());
+  return changed;
 }
 
 void EmbreeScene::Instance(RTCScene part, const std::array<float, 12>& placement, uint32_t id) {
@@ -249,8 +267,9 @@ void EmbreeScene::Instance(RTCScene part, const std::array<float, 12>& placement
 }
 
 void EmbreeScene::MoveTo(const Eigen::Vector2d& position) {
+  const bool other_rocks = ExchangeRocks(position);
   const std::vector<Tile*> made = Exchange(tree_.Wanted(position));
-  if (made.empty()) return;
+  if (made.empty() && !other_rocks) return;
   constexpr size_t kTilesAtOnce = 2;
   pool_->ParallelFor(made.size(), kTilesAtOnce, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
