@@ -63,7 +63,7 @@ def save_sweep(bag, index, target):
     points = points_of(cloud)
     figure, axes = pyplot.subplots(figsize=(7, 7), facecolor="black")
     axes.set_facecolor("black")
-    image = axes.scatter(points[:, 0], points[:, 1], s=1.2, c=points[:, 2], cmap="viridis", linewidths=0)
+    image = axes.scatter(points[:, 0], points[:, 1], s=1.2, c=points[:, 2], cmap="viridis", vmin=-4, vmax=2, linewidths=0)
     axes.plot(0, 0, "r^", markersize=7)
     axes.set(xlim=(-25, 25), ylim=(-25, 25), aspect="equal")
     axes.set_xlabel("m ahead", color="white")
