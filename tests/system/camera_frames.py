@@ -33,6 +33,10 @@ def bearings(camera):
     return directions / numpy.linalg.norm(directions, axis=-1, keepdims=True)
 
 
+def decode(message):
+    return numpy.array(Image.open(io.BytesIO(message.data.tobytes())))
+
+
 def read_frames(folder, every=1, camera="mono"):
     """Pairs of an image and its pixels' elevations above the horizontal in degrees."""
     rig = YAML(typ="safe", pure=True).load(folder / "rig.yaml")["cameras"][camera]
@@ -53,5 +57,5 @@ def read_frames(folder, every=1, camera="mono"):
             pose = truth[numpy.argmin(numpy.abs(truth[:, 0] - stamp))]
             up_camera = (Rotation.from_quat(pose[4:8]).as_matrix() @ R_imu_camera)[2]
             elevation = numpy.degrees(numpy.arcsin(directions @ up_camera))
-            frames.append((numpy.array(Image.open(io.BytesIO(message.data.tobytes()))), elevation))
+            frames.append((decode(message), elevation))
     return frames

@@ -4,23 +4,20 @@
 """DESIGN §6, line by line: on the scenarios, and on a recording measured against its truth."""
 
 import functools
-import io
 import math
 import re
 import unittest
 
 import numpy
-from PIL import Image
 from rosbags.rosbag1 import Reader
-from rosbags.typesys import Stores, get_typestore
 from ruamel.yaml import YAML
 from scipy.signal import butter, sosfiltfilt
 from scipy.spatial.transform import Rotation
 
+from camera_frames import TYPES, decode
 from geotiff import GeoTiff
 from program import RECORDING, ROOT, ProgramTest, call, read_tum
 
-TYPES = get_typestore(Stores.ROS1_NOETIC)
 CAMERAS = ("mono", "left", "right")
 SCENARIOS = {path.stem: path for path in (ROOT / "config" / "scenarios").glob("*.yaml")}
 MARS = {"mars", "mars_short", "mars_dunes"}
@@ -193,10 +190,6 @@ def nanoseconds(stamp):
 
 def vector(message):
     return [message.x, message.y, message.z]
-
-
-def decode(message):
-    return numpy.array(Image.open(io.BytesIO(message.data.tobytes())))
 
 
 class Recording:

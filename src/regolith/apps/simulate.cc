@@ -25,7 +25,7 @@
 #include "regolith/io/raster.h"
 #include "regolith/io/tum.h"
 #include "regolith/sim/simulator.h"
-#include "regolith/terrain/dem_quality.h"
+#include "regolith/terrain/dem_spikes.h"
 
 namespace regolith {
 namespace {
@@ -63,7 +63,7 @@ std::unique_ptr<Simulator> MakeSimulator(const SimulateArguments& arguments,
     return Simulator::Create(options, nullptr, pool);
   }
   const HeightGrid dem = ReadHeights(arguments.dem);
-  const size_t spikes = AssessDem(dem).spikes.size();
+  const size_t spikes = FindSpikes(dem).size();
   if (spikes > 0) {
     LogWarning(Concatenate(arguments.dem, ": ", spikes,
                            " spikes stay in the ground; regolith terrain --repair takes them out"));

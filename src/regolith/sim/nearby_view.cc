@@ -21,6 +21,13 @@ constexpr float kMet = 2e-4F;  // of the distance
 
 }  // namespace
 
+bool SeeOneSurface(const Scene& scene, const RayEnd& one, const RayEnd& other, float tolerance) {
+  if (one.object == kNothing || other.object == kNothing) return one.object == other.object;
+  if (scene.IsRock(one.object) || scene.IsRock(other.object)) return false;
+  const float nearer = std::min(one.distance, other.distance);
+  return std::abs(one.distance - other.distance) <= tolerance * nearer;
+}
+
 NearbyView::NearbyView(const RenderedView& view, const SE3& T_world_camera,
                        const CameraIntrinsics& intrinsics, double baseline, const Scene& scene)
     : view_(view),
@@ -37,14 +44,6 @@ NearbyView::NearbyView(const RenderedView& view, const SE3& T_world_camera,
   MarkEdges();
 }
 
-bool NearbyView::Continuous(const RayEnd& one, const RayEnd& other, float tolerance) const {
-  if (one.object == kNothing || other.object == kNothing) return one.object == other.object;
-  if (scene_.IsRock(one.object) || scene_.IsRock(other.object)) return false;
-  const float nearer = std::min(one.distance, other.distance);
-  return std::abs(one.distance - other.distance) <
-         (tolerance + kToleranceByMetre * nearer) * nearer;
-}
-
 // An edge hides as many pixels from another camera as its sides' parallaxes differ.
 void NearbyView::MarkEdge(const RayEnd& one, const RayEnd& other, int column, int row) {
   const float jump = std::abs(1.0F / one.distance - 1.0F / other.distance);
@@ -58,16 +57,20 @@ void NearbyView::MarkEdge(const RayEnd& one, const RayEnd& other, int column, in
 }
 
 void NearbyView::MarkEdges() {
+  const auto check = [&](const RayEnd& here, int column, int row, const RayEnd& there,
+                         float tolerance) {
+    const float nearer = std::min(here.distance, there.distance);
+    if (SeeOneSurface(scene_, here, there, tolerance + kToleranceByMetre * nearer)) return;
+    MarkEdge(here, there, column, row);
+  };
   for (int row = 0; row < view_.height; ++row) {
     for (int column = 0; column < view_.width; ++column) {
       const RayEnd here = view_.End(column, row);
       if (column + 1 < view_.width) {
-        const RayEnd right = view_.End(column + 1, row);
-        if (!Continuous(here, right, kToleranceAcross)) MarkEdge(here, right, column, row);
+        check(here, column, row, view_.End(column + 1, row), kToleranceAcross);
       }
       if (row + 1 < view_.height) {
-        const RayEnd below = view_.End(column, row + 1);
-        if (!Continuous(here, below, kToleranceDown)) MarkEdge(here, below, column, row);
+        check(here, column, row, view_.End(column, row + 1), kToleranceDown);
       }
     }
   }

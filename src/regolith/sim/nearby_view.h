@@ -15,6 +15,10 @@
 
 namespace regolith {
 
+/// Whether two neighbouring rays see the sky, or one piece of ground: distances differ by at most
+/// `tolerance` of the nearer.
+bool SeeOneSurface(const Scene& scene, const RayEnd& one, const RayEnd& other, float tolerance);
+
 /// What another camera, of the same intrinsics and attitude, saw in the same instant from some
 /// centimetres to the side. A ray of this camera ends where a ray of that one does, unless there is
 /// an edge between them; so most rays need not be cast again.
@@ -37,7 +41,6 @@ class NearbyView {
 
   std::optional<Place> See(const Eigen::Vector3f& point_world) const;
   float Distance(const Eigen::Vector2f& pixel) const;
-  bool Continuous(const RayEnd& one, const RayEnd& other, float tolerance) const;
   void MarkEdges();
   void MarkEdge(const RayEnd& one, const RayEnd& other, int column, int row);
 

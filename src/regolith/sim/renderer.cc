@@ -133,12 +133,11 @@ void Renderer::CastColumns(const Pose& pose, Span<const int> columns, Line* line
 // The ray half-way between two that see the sky, or nearly the same place of the ground.
 bool Renderer::Interpolate(const Pose& pose, const RayEnd& one, const RayEnd& other,
                            float tolerance, Line* line, int column) const {
-  if (one.object == kNothing || other.object == kNothing) return one.object == other.object;
-  if (scene_.IsRock(one.object) || scene_.IsRock(other.object)) return false;
+  if (!SeeOneSurface(scene_, one, other, std::min(tolerance, kMostTolerance))) return false;
+  if (one.object == kNothing) return true;
+  const auto here = static_cast<size_t>(column);
   const float nearer = std::min(one.distance, other.distance);
   const float farther = std::max(one.distance, other.distance);
-  if (farther - nearer > std::min(tolerance, kMostTolerance) * nearer) return false;
-  const auto here = static_cast<size_t>(column);
   const float distance = 2.0F * nearer * farther / (nearer + farther);
   const Eigen::Vector3f place = pose.origin + distance * line->directions[here];
   const bool on_one = scene_.Covers(one.object, place.x(), place.y());

@@ -8,20 +8,7 @@
 namespace regolith {
 namespace {
 
-constexpr int kSunRays = 5;
-constexpr float kGoldenAngle = 2.3999632F;  // rad
-
-// Directions spread over the sun's disc (Vogel 1979).
-void Aim(const SunDisc& sun, Eigen::Vector3f* rays) {
-  const Eigen::Vector3f across = sun.direction.unitOrthogonal();
-  const Eigen::Vector3f along = sun.direction.cross(across);
-  for (int ray = 0; ray < kSunRays; ++ray) {
-    const float radius = sun.radius * std::sqrt((static_cast<float>(ray) + 0.5F) / kSunRays);
-    const float angle = kGoldenAngle * static_cast<float>(ray);
-    const Eigen::Vector3f offset = radius * (std::cos(angle) * across + std::sin(angle) * along);
-    rays[ray] = (sun.direction + offset).normalized();
-  }
-}
+constexpr size_t kSunRays = 5;
 
 }  // namespace
 
@@ -72,14 +59,11 @@ float RoverShadow::Sunlit(const Eigen::Vector3f& place, const SunDisc& sun) cons
     return ahead > -radius && to_centre.squaredNorm() - ahead * ahead < reach * reach;
   };
   if (!may_hide(centre_, radius_)) return 1.0F;
-  Eigen::Vector3f rays[kSunRays];
+  const auto rays = SpreadOverDisc<kSunRays>(sun);
   bool hidden[kSunRays] = {};
-  bool aimed = false;
   for (const Box& box : boxes_) {
     if (!may_hide(box.centre, box.radius)) continue;
-    if (!aimed) Aim(sun, rays);
-    aimed = true;
-    for (int ray = 0; ray < kSunRays; ++ray) {
+    for (size_t ray = 0; ray < kSunRays; ++ray) {
       hidden[ray] = hidden[ray] || box.Meets(place, rays[ray]);
     }
   }

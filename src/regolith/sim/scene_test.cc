@@ -153,6 +153,31 @@ TEST_F(SceneTest, ShadowsAreFilledByLitGroundAround) {
   const float open = scene_->Look(Down(-8.0F, 0.0F), 0, 0.01F, 0.01F).fill;
   EXPECT_GT(near_wall, 3.0F * open);
   EXPECT_LT(near_wall, 0.12F);
+  MeshOptions draft;
+  draft.spacing = 0.02;
+  draft.reach = 100.0;
+  draft.interreflection = false;
+  const auto scene = Scene::Create(ground_, path_, {}, photometry_, draft, &pool_);
+  RayPacket ray;
+  for (int lane = 1; lane < kPacketSize; ++lane) ray.Off(lane);
+  ray.Set(0, {1.8F, 0.0F, 20.0F}, -Eigen::Vector3f::UnitZ(), 100.0F);
+  scene->Intersect(&ray);
+  EXPECT_EQ(scene->Look(ray, 0, 0.01F, 0.01F).fill, 0.0F) << "the Moon's sky sends nothing";
+}
+
+// A rock of 10 cm is narrower than a pixel 50 m away.
+TEST_F(SceneTest, RocksStandWhileTheRoverCanSeeThem) {
+  for (int i = 0; i < 80; ++i) path_.emplace_back(4.0 + i, 0.0);
+  Rock rock;
+  rock.centre = {3.0, 1.0};
+  rock.ground = surface_.Height(3.0, 1.0, 0.0);
+  rock.diameter = 0.1;
+  Make({rock});
+  EXPECT_TRUE(scene_->IsRock(Down(3.0F, 1.0F).object[0]));
+  scene_->MoveTo({80.0, 0.0});
+  EXPECT_FALSE(scene_->IsRock(Down(3.0F, 1.0F).object[0]));
+  scene_->MoveTo({20.0, 0.0});
+  EXPECT_TRUE(scene_->IsRock(Down(3.0F, 1.0F).object[0]));
 }
 
 TEST_F(SceneTest, RocksStandOnTheGroundAndCastShadows) {

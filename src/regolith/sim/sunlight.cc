@@ -3,14 +3,12 @@
 #include "regolith/sim/sunlight.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace regolith {
 namespace {
 
-constexpr float kGoldenAngle = 2.3999632F;  // rad
-constexpr int kSunRays = 4;                 // a place
-constexpr float kFarAway = 2e4F;            // m
+constexpr int kSunRays = 4;       // a place
+constexpr float kFarAway = 2e4F;  // m
 // Rays of light start above the post by this share of the posts' spacing, so that neither rounding
 // nor a coarser neighbour's seam shades it.
 constexpr float kShadowLift = 0.2F;
@@ -58,21 +56,13 @@ void CastSunlight(const Scene& scene, const SunDisc& sun, Span<const Eigen::Vect
     std::fill(sunlit, sunlit + places.size(), 0.0F);
     return;
   }
-  const Eigen::Vector3f across = sun.direction.unitOrthogonal();
-  const Eigen::Vector3f along = sun.direction.cross(across);
-  Eigen::Vector3f to_sun[kSunRays];
-  for (int ray = 0; ray < kSunRays; ++ray) {
-    const float radius = sun.radius * std::sqrt((static_cast<float>(ray) + 0.5F) / kSunRays);
-    const float angle = kGoldenAngle * static_cast<float>(ray);
-    to_sun[ray] = (sun.direction + radius * (std::cos(angle) * across + std::sin(angle) * along))
-                      .normalized();
-  }
+  const auto to_sun = SpreadOverDisc<kSunRays>(sun);
   RayPacket rays;
   for (size_t first = 0; first < places.size(); first += kPlacesAtOnce) {
     for (int lane = 0; lane < kPacketSize; ++lane) {
       const size_t place = first + static_cast<size_t>(lane / kSunRays);
       if (place < places.size()) {
-        rays.Set(lane, places[place], to_sun[lane % kSunRays], kFarAway);
+        rays.Set(lane, places[place], to_sun[static_cast<size_t>(lane % kSunRays)], kFarAway);
       } else {
         rays.Off(lane);
       }
