@@ -5,7 +5,7 @@
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(spdlog REQUIRED)
-find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs video calib3d features2d)
 find_package(embree 3.13 REQUIRED)
 find_package(GDAL 3.6 REQUIRED)
 find_package(yaml-cpp REQUIRED)
