@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/features/feature_options.h"
 
+#include <algorithm>
+
 #include "regolith/core/check.h"
 
 namespace regolith {
@@ -16,8 +18,8 @@ void AdaptiveThresholdOptions::Check() const {
 
 void NetworkOptions::Check() const {
   REGOLITH_CHECK(precision == "auto" || precision == "f32" || precision == "bf16",
-                 "network.precision=", precision, "; expected auto, f32 or bf16");
-  REGOLITH_CHECK(threads >= 1 && threads <= 64, "network.threads=", threads);
+                 "precision=", precision, "; expected auto, f32 or bf16");
+  REGOLITH_CHECK(threads >= 1 && threads <= 64, "threads=", threads);
 }
 
 void OpticalFlowOptions::Check() const {
@@ -64,6 +66,10 @@ void TrackMemoryOptions::Check() const {
 }
 
 void FeatureOptions::Check() const {
+  const bool known =
+      std::any_of(kFrontends.begin(), kFrontends.end(),
+                  [&](const FrontendName& candidate) { return frontend == candidate.name; });
+  REGOLITH_CHECK(known, "frontend=", frontend);
   REGOLITH_CHECK(max_keypoints >= 1 && max_keypoints <= 20000, "max_keypoints=", max_keypoints);
   REGOLITH_CHECK(min_distance >= 1, "min_distance=", min_distance);
   REGOLITH_CHECK(nms_radius >= 1, "nms_radius=", nms_radius);

@@ -2,9 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <string>
 
 namespace regolith {
+
+/// A frontend that can be asked for, and the network (models/MODEL.yaml) that it runs.
+struct FrontendName {
+  const char* name;
+  const char* model;  ///< empty: none
+};
+
+inline constexpr std::array<FrontendName, 6> kFrontends = {{{"ghost", "ghost"},
+                                                            {"ghost_paper", "ghost_paper"},
+                                                            {"ghost_lk", "ghost"},
+                                                            {"superpoint", "superpoint"},
+                                                            {"orb", ""},
+                                                            {"st_lk", ""}}};
 
 /// Where keypoints may lie and how their thresholds adapt. The image is cut into cells of about
 /// `cell_size`; each has a threshold of its own that moves from frame to frame, and within a frame
@@ -21,6 +35,7 @@ struct AdaptiveThresholdOptions {
 };
 
 struct NetworkOptions {
+  std::string model;               ///< name or manifest; empty: the one that the frontend is for
   std::string precision = "auto";  ///< f32, bf16, or auto: bf16 where the processor has it
   int threads = 2;                 ///< of inference
   std::string cache;               ///< folder of compiled models; empty: none
@@ -86,7 +101,7 @@ struct TrackMemoryOptions {
 };
 
 struct FeatureOptions {
-  std::string frontend = "ghost";  ///< ghost, ghost_paper, ghost_lk, superpoint, orb, st_lk
+  std::string frontend = "ghost";  ///< one of kFrontends
   int max_keypoints = 500;
   int min_distance = 8;  ///< pixels between keypoints of st_lk and of tracked points
   int nms_radius = 4;    ///< pixels; no two keypoints of a network are nearer
