@@ -14,6 +14,7 @@ from PIL import Image
 from ruamel.yaml import YAML
 from scipy.ndimage import gaussian_filter, map_coordinates
 
+from geotiff import GeoTiff
 from program import DATA, ROOT, ProgramTest, call
 
 WIDTH, HEIGHT = 640, 480
@@ -161,7 +162,14 @@ class Results(MatchTest):
         self.assertEqual(summary["truth"], "correspondences")
         self.assertLessEqual(summary["correct_inliers"], summary["known_inliers"])
         self.assertLessEqual(summary["known_inliers"], summary["inliers"])
-        self.assertGreater(summary["known_matches"], 0)
+        flow = GeoTiff(pair["flow.tif"]).values
+        matches = read_csv(self.out / "matches.csv")
+        places = numpy.array([flow[round(row["y1"]), round(row["x1"])] for row in matches])
+        errors = numpy.hypot(*(places - [[row["x2"], row["y2"]] for row in matches]).T)
+        # By the nearest pixel instead of between pixels.
+        self.assertGreater((errors < 2).sum(), 5)
+        self.assertLessEqual((errors < 2).sum(), summary["correct_matches"] + 2)
+        self.assertGreaterEqual((errors < 5).sum(), summary["correct_matches"])
         self.assertLessEqual(summary["repeatability_1px"], summary["repeatability_3px"])
         # A flow of another size than image 1.
         self.assert_refused(self.match("--features", "orb", "--correspondences", pair["flow.tif"],

@@ -38,8 +38,8 @@ const cv::Scalar kWrong(60, 60, 240);
 const cv::Scalar kUnknown(40, 170, 240);
 /// Neighbouring lines differ enough to be followed by eye.
 const std::array<cv::Scalar, 6> kKept = {cv::Scalar(90, 205, 95),   cv::Scalar(170, 200, 60),
-                                         cv::Scalar(110, 230, 170), cv::Scalar(205, 185, 85),
-                                         cv::Scalar(70, 180, 130),  cv::Scalar(215, 225, 120)};
+                                         cv::Scalar(150, 230, 120), cv::Scalar(205, 185, 85),
+                                         cv::Scalar(120, 170, 40),  cv::Scalar(215, 225, 120)};
 
 struct Layout {
   double scale = 1.0;
@@ -125,9 +125,9 @@ void DrawLines(Span<const MatchLine> matches, const Layout& layout, double opaci
 
 void DrawKeypoints(const MatchPanel& panel, const Layout& layout, const cv::Rect& place,
                    cv::Mat* canvas) {
-  constexpr int kRadius = 2 << kSubpixelBits;
+  constexpr int kRadius = (5 << kSubpixelBits) / 2;
   for (const Eigen::Vector2f& pixel : panel.keypoints) {
-    cv::circle(*canvas, PlaceOf(pixel, layout, place), kRadius, kKeypoint, 1, cv::LINE_AA,
+    cv::circle(*canvas, PlaceOf(pixel, layout, place), kRadius, kKeypoint, cv::FILLED, cv::LINE_AA,
                kSubpixelBits);
   }
 }
@@ -150,8 +150,6 @@ std::vector<uint8_t> DrawMatches(const MatchPanel& first, const MatchPanel& seco
   cv::Mat canvas(layout.canvas, CV_8UC3, kPaper);
   DrawImage(first, layout, layout.first, &canvas);
   DrawImage(second, layout, layout.second, &canvas);
-  DrawKeypoints(first, layout, layout.first, &canvas);
-  DrawKeypoints(second, layout, layout.second, &canvas);
   const auto draw = [&](double opacity, const auto& wanted) {
     DrawLines(matches, layout, opacity, wanted, &canvas);
   };
@@ -162,6 +160,8 @@ std::vector<uint8_t> DrawMatches(const MatchPanel& first, const MatchPanel& seco
   draw(kKeptOpacity, [](MatchStyle style) {
     return style == MatchStyle::kWrong || style == MatchStyle::kUnknown;
   });
+  DrawKeypoints(first, layout, layout.first, &canvas);
+  DrawKeypoints(second, layout, layout.second, &canvas);
   int baseline = std::max(layout.first.height, layout.second.height) + kMargin;
   for (const std::string& line : caption) {
     baseline += kLineHeight;
