@@ -20,16 +20,17 @@ inline constexpr std::array<FrontendName, 6> kFrontends = {{{"ghost", "ghost"},
                                                             {"orb", ""},
                                                             {"st_lk", ""}}};
 
-/// Where keypoints may lie and how their thresholds adapt. The image is cut into cells of about
-/// `cell_size`; each has a threshold of its own that moves from frame to frame, and within a frame
-/// until the number asked for is met.
+/// How detection thresholds adapt. The image is cut into cells of about `cell_size`; each has a
+/// threshold of its own that moves from frame to frame towards the score which would give the cell
+/// its even share of keypoints, and all of them move together within a frame until the number asked
+/// for is met.
 struct AdaptiveThresholdOptions {
-  bool enabled = true;     ///< false: the fixed `initial` threshold, best first, everywhere
+  bool enabled = true;     ///< false: the fixed threshold `initial`, the same everywhere
   int cell_size = 80;      ///< pixels
   double initial = 0.015;  ///< score
-  double floor = 0.003;    ///< score that noise in flat shadow and black sky stays below
-  double max_share = 2.5;  ///< of the even share, before other cells are asked for more
-  double memory = 0.5;     ///< weight of the last frame's threshold
+  double floor = 0.004;    ///< score that noise in flat shadow and black sky stays below
+  double evenness = 0.5;   ///< 0: one threshold for all cells; 1: as many keypoints in each
+  double memory = 0.5;     ///< weight of the last frame's threshold (of its logarithm)
 
   void Check() const;
 };
