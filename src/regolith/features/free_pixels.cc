@@ -45,8 +45,7 @@ bool FreePixels::IsFree(const Eigen::Vector2f& pixel) const {
 void FreePixels::Take(const Eigen::Vector2f& pixel, int radius) {
   const auto reach = static_cast<float>(radius);
   const int first_row = std::max(0, static_cast<int>(std::ceil(pixel.y() - reach)));
-  const int last_row =
-      std::min(image_.height - 1, static_cast<int>(std::floor(pixel.y() + reach)));
+  const int last_row = std::min(image_.height - 1, static_cast<int>(std::floor(pixel.y() + reach)));
   for (int row = first_row; row <= last_row; ++row) {
     const float dy = static_cast<float>(row) - pixel.y();
     for (int column = std::max(0, static_cast<int>(std::ceil(pixel.x() - reach)));

@@ -24,13 +24,6 @@ std::array<int, kPatchReach + 1> DiscWidths() {
   return widths;
 }
 
-float Top(float before, float here, float after) {
-  if (here < before || here < after) return 0.0F;
-  const float curvature = before - 2.0F * here + after;
-  if (curvature >= 0.0F) return 0.0F;
-  return std::clamp(0.5F * (before - after) / curvature, -0.5F, 0.5F);
-}
-
 }  // namespace
 
 float HarrisResponse(const PixelView& image, int column, int row) {
@@ -56,13 +49,6 @@ float HarrisResponse(const PixelView& image, int column, int row) {
   const float b = static_cast<float>(yy) * kScale;
   const float c = static_cast<float>(xy) * kScale;
   return a * b - c * c - kHarrisK * (a + b) * (a + b);
-}
-
-Eigen::Vector2f RefineCorner(const PixelView& image, int column, int row) {
-  const float here = HarrisResponse(image, column, row);
-  return {Top(HarrisResponse(image, column - 1, row), here, HarrisResponse(image, column + 1, row)),
-          Top(HarrisResponse(image, column, row - 1), here,
-              HarrisResponse(image, column, row + 1))};
 }
 
 float PatchAngle(const PixelView& image, int column, int row) {

@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <Eigen/Core>
-
 namespace regolith {
 
 /// An 8-bit grey image that somebody else owns.
@@ -17,20 +15,14 @@ struct PixelView {
 
 /// Pixels that HarrisResponse looks at on every side.
 inline constexpr int kHarrisReach = 4;
-/// Pixels that RefineCorner looks at on every side.
-inline constexpr int kRefineReach = kHarrisReach + 1;
 /// Pixels that PatchAngle looks at on every side.
 inline constexpr int kPatchReach = 15;
 
 /// Harris' measure (Harris & Stephens 1988, k = 0.04) over 7 × 7 pixels, of grey levels in 0…1.
 float HarrisResponse(const PixelView& image, int column, int row);
 
-/// Where, relative to the pixel, parabolas through its response and its neighbours' have their tops;
-/// 0 along an axis where the pixel is no maximum.
-Eigen::Vector2f RefineCorner(const PixelView& image, int column, int row);
-
-/// Direction (radians, from x to y) from the pixel to the grey-weighted centre of the disc around it
-/// (Rosin 1999).
+/// Direction (radians, from x to y) from the pixel to the grey-weighted centre of the disc around
+/// it (Rosin 1999).
 float PatchAngle(const PixelView& image, int column, int row);
 
 }  // namespace regolith

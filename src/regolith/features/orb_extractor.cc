@@ -20,15 +20,18 @@ namespace {
 
 // The turned pattern of the descriptor reaches 19 pixels from the keypoint (13 √2).
 constexpr int kMargin = 19;
-static_assert(kMargin >= kPatchReach && kMargin >= kRefineReach);
+static_assert(kMargin >= kPatchReach && kMargin >= kHarrisReach);
 // Of a level's own pixels: the cells that FAST is asked again in.
 constexpr int kDetectionCell = 35;
-// FAST looks at a circle of radius 3; one pixel more, so that the maximum is decided as in the whole
-// image.
+// Corners of such a cell that are ranked by Harris' measure, which costs more than FAST.
+constexpr int kMostInCell = 10;
+// FAST looks at a circle of radius 3; one pixel more, so that the maximum is decided as in the
+// whole image.
 constexpr int kFastReach = 4;
-// Corners of neighbouring levels at one place are one corner: descriptors of both would be so alike
-// that the ratio test refused both.
-constexpr int kSameCorner = 3;
+// Pixels: corners of several levels at one place count once, for descriptors of both would be so
+// alike that the ratio test refused both. (On simulated pairs 3 pixels cost a third of the right
+// matches.)
+constexpr int kSameCorner = 1;
 constexpr double kRadiansToDegrees = 57.29577951308232;
 
 struct Corner {
@@ -52,12 +55,9 @@ struct Level {
 
   PixelView View() const { return {image.data, static_cast<ptrdiff_t>(image.step)}; }
   /// Pixel centres lie at integers in both, so the scale acts about the corner at (−½, −½).
-  Eigen::Vector2f InImage(const Eigen::Vector2f& pixel) const {
-    return {(pixel.x() + 0.5F) * columns_scale - 0.5F, (pixel.y() + 0.5F) * rows_scale - 0.5F};
-  }
   Eigen::Vector2f InImage(const Corner& corner) const {
-    return InImage(
-        Eigen::Vector2f(static_cast<float>(corner.column), static_cast<float>(corner.row)));
+    return {(static_cast<float>(corner.column) + 0.5F) * columns_scale - 0.5F,
+            (static_cast<float>(corner.row) + 0.5F) * rows_scale - 0.5F};
   }
 };
 
@@ -100,8 +100,7 @@ class OrbExtractor final : public FeatureExtractor {
     levels_.resize(static_cast<size_t>(options_.orb.levels));
     level_count_ = 0;
     for (Level& level : levels_) {
-      const double scale =
-          std::pow(options_.orb.scale_factor, static_cast<double>(level_count_));
+      const double scale = std::pow(options_.orb.scale_factor, static_cast<double>(level_count_));
       const cv::Size size(static_cast<int>(std::lround(image.width / scale)),
                           static_cast<int>(std::lround(image.height / scale)));
       if (std::min(size.width, size.height) <= 2 * kMargin) break;
@@ -119,19 +118,14 @@ class OrbExtractor final : public FeatureExtractor {
 
   void FindCorners(Level* level) {
     const cv::Mat& image = level->image;
-    level->corners.clear();
     const cv::Rect inner(kMargin, kMargin, image.cols - 2 * kMargin, image.rows - 2 * kMargin);
-    AddFastCorners(inner, options_.orb.fast_threshold, level);
     const KeypointGrid cells(inner.width, inner.height, kDetectionCell);
-    has_corner_.assign(static_cast<size_t>(cells.cells()), 0);
-    for (const Corner& corner : level->corners) {
-      has_corner_[static_cast<size_t>(
-          cells.CellOf({static_cast<float>(corner.column - inner.x),
-                        static_cast<float>(corner.row - inner.y)}))] = 1;
-    }
+    in_cell_.assign(static_cast<size_t>(cells.cells()), 0);
+    level->corners.clear();
+    AddFastCorners(inner, options_.orb.fast_threshold, cells, level);
     for (int row = 0; row < cells.rows(); ++row) {
       for (int column = 0; column < cells.columns(); ++column) {
-        const bool empty = has_corner_[static_cast<size_t>(row * cells.columns() + column)] == 0;
+        const bool empty = in_cell_[static_cast<size_t>(row * cells.columns() + column)] == 0;
         thresholds_.push_back(empty ? options_.orb.fast_floor : options_.orb.fast_threshold);
         if (!empty) continue;
         const int left = inner.width * column / cells.columns();
@@ -139,35 +133,47 @@ class OrbExtractor final : public FeatureExtractor {
         const int right = inner.width * (column + 1) / cells.columns();
         const int bottom = inner.height * (row + 1) / cells.rows();
         AddFastCorners({inner.x + left, inner.y + top, right - left, bottom - top},
-                       options_.orb.fast_floor, level);
+                       options_.orb.fast_floor, cells, level);
       }
     }
     std::sort(level->corners.begin(), level->corners.end(), Stronger);
   }
 
-  /// Adds the corners whose pixel lies in `area` and is free.
-  void AddFastCorners(const cv::Rect& area, int threshold, Level* level) {
-    const cv::Point corner(area.x - kFastReach, area.y - kFastReach);
-    const cv::Rect seen(corner, area.size() + cv::Size(2 * kFastReach, 2 * kFastReach));
+  /// Adds the corners whose pixel lies in `area` and is free, of each cell those that FAST thinks
+  /// best.
+  void AddFastCorners(const cv::Rect& area, int threshold, const KeypointGrid& cells,
+                      Level* level) {
+    const cv::Point origin(area.x - kFastReach, area.y - kFastReach);
+    const cv::Rect seen(origin, area.size() + cv::Size(2 * kFastReach, 2 * kFastReach));
     cv::FAST(level->image(seen), fast_corners_, threshold, true);
+    fast_candidates_.clear();
     for (const cv::KeyPoint& found : fast_corners_) {
-      const int column = static_cast<int>(found.pt.x) + corner.x;
-      const int row = static_cast<int>(found.pt.y) + corner.y;
-      Corner candidate{0.0F, column, row};
-      if (!area.contains({column, row}) || !free_.IsFree(level->InImage(candidate))) continue;
-      candidate.response = HarrisResponse(level->View(), column, row);
-      if (candidate.response > 0.0F) level->corners.push_back(candidate);  // else it is an edge
+      const Corner corner{found.response, static_cast<int>(found.pt.x) + origin.x,
+                          static_cast<int>(found.pt.y) + origin.y};
+      if (!area.contains({corner.column, corner.row})) continue;
+      if (free_.IsFree(level->InImage(corner))) fast_candidates_.push_back(corner);
+    }
+    std::sort(fast_candidates_.begin(), fast_candidates_.end(), Stronger);
+    for (const Corner& corner : fast_candidates_) {
+      int& count =
+          in_cell_[static_cast<size_t>(cells.CellOf({static_cast<float>(corner.column - kMargin),
+                                                     static_cast<float>(corner.row - kMargin)}))];
+      if (count == kMostInCell) continue;
+      ++count;
+      const float response = HarrisResponse(level->View(), corner.column, corner.row);
+      if (response <= 0.0F) continue;  // an edge
+      level->corners.push_back({response, corner.column, corner.row});
     }
   }
 
-  /// Each level gives its share of the number asked for, coarse ones first: what they lack falls to
-  /// the fine ones, which have most corners.
+  /// Each level gives a share of the number asked for as large as its share of the pixels, fine
+  /// ones first, since they say the place of a corner best; what they lack falls to the coarser.
   void Choose(const KeypointGrid& grid, int max_keypoints) {
     double weight = 0.0;
     for (size_t i = 0; i < level_count_; ++i) weight += Weight(i);
     int left = max_keypoints;
     chosen_pixels_.clear();
-    for (size_t i = level_count_; i-- > 0;) {
+    for (size_t i = 0; i < level_count_; ++i) {
       Level& level = levels_[i];
       const int share = static_cast<int>(std::lround(left * Weight(i) / weight));
       weight -= Weight(i);
@@ -180,7 +186,7 @@ class OrbExtractor final : public FeatureExtractor {
         candidates_.push_back(pixel);
       }
       level.corners.resize(kept);
-      selection_.Select(grid, chosen_pixels_, candidates_, i == 0 ? left : share, &rows_);
+      selection_.Select(grid, chosen_pixels_, candidates_, share, &rows_);
       level.chosen.clear();
       for (const int row : rows_) {
         const Eigen::Vector2f& pixel = candidates_[static_cast<size_t>(row)];
@@ -193,7 +199,7 @@ class OrbExtractor final : public FeatureExtractor {
   }
 
   double Weight(size_t level) const {
-    return std::pow(options_.orb.scale_factor, -static_cast<double>(level));
+    return std::pow(options_.orb.scale_factor, -2.0 * static_cast<double>(level));
   }
 
   void Describe(FeatureSet* features) {
@@ -220,9 +226,7 @@ class OrbExtractor final : public FeatureExtractor {
       const double angle = PatchAngle(level.View(), corner.column, corner.row) * kRadiansToDegrees;
       keypoints_.emplace_back(static_cast<float>(corner.column), static_cast<float>(corner.row),
                               31.0F, static_cast<float>(angle), corner.response, 0);
-      const Eigen::Vector2f at(static_cast<float>(corner.column), static_cast<float>(corner.row));
-      unsorted_.pixels.push_back(
-          level.InImage(at + RefineCorner(level.View(), corner.column, corner.row)));
+      unsorted_.pixels.push_back(level.InImage(corner));
       unsorted_.scores.push_back(corner.response);
     }
     descriptor_->compute(level.image, keypoints_, described_);
@@ -236,8 +240,7 @@ class OrbExtractor final : public FeatureExtractor {
   void FillStatus(const KeypointGrid& grid, const FeatureSet& features) {
     grid.CountFilled(features.pixels, &status_);
     if (thresholds_.empty()) return;
-    const auto middle =
-        thresholds_.begin() + static_cast<std::ptrdiff_t>(thresholds_.size() / 2);
+    const auto middle = thresholds_.begin() + static_cast<std::ptrdiff_t>(thresholds_.size() / 2);
     std::nth_element(thresholds_.begin(), middle, thresholds_.end());
     status_.threshold_median = *middle;
     const auto [least, most] = std::minmax_element(thresholds_.begin(), thresholds_.end());
@@ -256,7 +259,8 @@ class OrbExtractor final : public FeatureExtractor {
   size_t level_count_ = 0;
   std::vector<int> thresholds_;
   std::vector<cv::KeyPoint> fast_corners_;
-  std::vector<uint8_t> has_corner_;
+  std::vector<Corner> fast_candidates_;
+  std::vector<int> in_cell_;
   std::vector<Eigen::Vector2f> candidates_;
   std::vector<Eigen::Vector2f> chosen_pixels_;
   std::vector<int> rows_;

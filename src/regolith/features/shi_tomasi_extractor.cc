@@ -76,18 +76,21 @@ class ShiTomasiExtractor final : public FeatureExtractor {
     strongest_ = 0.0F;
     for (int row = 0; row < response_.rows; ++row) {
       const float* line = response_.ptr<float>(row);
-      const uint8_t* free = free_.image().data.data() + static_cast<ptrdiff_t>(row) * response_.cols;
+      const uint8_t* free =
+          free_.image().data.data() + static_cast<ptrdiff_t>(row) * response_.cols;
       for (int column = 0; column < response_.cols; ++column) {
         if (free[column] != 0) strongest_ = std::max(strongest_, line[column]);
       }
     }
     corners_.clear();
     const float least = strongest_ * static_cast<float>(options_.shi_tomasi.quality);
-    status_.threshold_min = status_.threshold_median = status_.threshold_max = options_.shi_tomasi.quality;
+    status_.threshold_min = status_.threshold_median = status_.threshold_max =
+        options_.shi_tomasi.quality;
     if (strongest_ <= 0.0F) return;
     for (int row = 1; row + 1 < response_.rows; ++row) {
       const float* line = response_.ptr<float>(row);
-      const uint8_t* free = free_.image().data.data() + static_cast<ptrdiff_t>(row) * response_.cols;
+      const uint8_t* free =
+          free_.image().data.data() + static_cast<ptrdiff_t>(row) * response_.cols;
       for (int column = 1; column + 1 < response_.cols; ++column) {
         if (free[column] != 0 && line[column] >= least && IsLocalMaximum(response_, row, column)) {
           corners_.push_back({line[column], column, row});

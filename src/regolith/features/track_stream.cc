@@ -19,8 +19,8 @@ bool TrackStream::Begin(const FrontendInput& input) {
   REGOLITH_CHECK(input.image != nullptr, "no image");
   const Image& image = *input.image;
   geometry_.CheckImage(image);
-  const bool follows = has_last_ && input.time > last_time_ && image.width == width_ &&
-                       image.height == height_;
+  const bool follows =
+      has_last_ && input.time > last_time_ && image.width == width_ && image.height == height_;
   if (!follows) Reset();
   if (image.width != width_ || image.height != height_) {
     grid_ = KeypointGrid(image.width, image.height, cell_size_);
@@ -107,7 +107,7 @@ void TrackStream::Start(float score, const Observation& observation) {
   Append(feature, observation);
 }
 
-void TrackStream::Finish(TrackedFrame* frame) {
+void TrackStream::Finish(const DetectionStatus& detection, TrackedFrame* frame) {
   order_.resize(features_.size());
   std::iota(order_.begin(), order_.end(), size_t{0});
   std::sort(order_.begin(), order_.end(),
@@ -124,6 +124,7 @@ void TrackStream::Finish(TrackedFrame* frame) {
   frame->features = tracks_;
   frame->descriptors = descriptors_;
   frame->status = status_;
+  frame->status.detection = detection;
   frame->status.mean_age = tracks_.empty() ? 0.0 : ages / static_cast<double>(tracks_.size());
   grid_.CountFilled(pixels_, &frame->status.detection);
 }

@@ -35,7 +35,9 @@ class TrackStream {
   const std::vector<TrackedFeature>& tracks() const { return tracks_; }
   const std::vector<Eigen::Vector2f>& predicted() const { return predicted_; }
   const Descriptors& descriptors() const { return descriptors_; }
-  const std::optional<Eigen::Quaterniond>& R_current_previous() const { return R_current_previous_; }
+  const std::optional<Eigen::Quaterniond>& R_current_previous() const {
+    return R_current_previous_;
+  }
   const TrackGeometry& geometry() const { return geometry_; }
   const KeypointGrid& grid() const { return grid_; }
   /// Pixels of the current frame's features so far.
@@ -52,8 +54,9 @@ class TrackStream {
   void RememberUnseen(const std::vector<uint8_t>& forget);
   void Resume(const TrackedFeature& lost, const Observation& observation);
   void Start(float score, const Observation& observation);
-  /// Fills time, features, descriptors and the counts of tracks.
-  void Finish(TrackedFrame* frame);
+  /// Fills everything but stages, `detected` and `rejected`. The cells of `detection` are counted
+  /// anew: those that hold a feature.
+  void Finish(const DetectionStatus& detection, TrackedFrame* frame);
 
   void Reset();
 
