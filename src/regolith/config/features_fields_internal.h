@@ -16,7 +16,7 @@ void Fields(Archive& archive, AdaptiveThresholdOptions& adaptive) {
   archive("cell_size", adaptive.cell_size);
   archive("initial", adaptive.initial);
   archive("floor", adaptive.floor);
-  archive("max_share", adaptive.max_share);
+  archive("evenness", adaptive.evenness);
   archive("memory", adaptive.memory);
 }
 

@@ -26,17 +26,15 @@ void ToFixedPoint(const Descriptors& descriptors, size_t stride, size_t rows,
   for (size_t row = 0; row < descriptors.size(); ++row) {
     const float* values = descriptors.Row(row);
     int16_t* out = fixed->data() + row * stride;
-    int32_t square = 0;
+    const double length =
+        std::sqrt(Eigen::Map<const Eigen::VectorXf>(values, descriptors.dimension).squaredNorm());
+    // Up to this length no value leaves 16 bits and no sum of products 32.
+    REGOLITH_CHECK(length <= 1.4, "descriptor ", row, " is of length ", length,
+                   ", not of unit length");
     for (size_t i = 0; i < dimension; ++i) {
-      // In this order of arguments NaN becomes -1, which the check of the length finds.
-      const float value = std::min(1.0F, std::max(-1.0F, values[i])) * kFixedOne;
-      const auto rounded = static_cast<int32_t>(value + std::copysign(0.5F, value));
-      out[i] = static_cast<int16_t>(rounded);
-      square += (rounded * rounded) >> 12;
+      const float value = values[i] * kFixedOne;
+      out[i] = static_cast<int16_t>(value + std::copysign(0.5F, value));
     }
-    // Up to twice the square of a unit vector no sum of products can leave 32 bits.
-    REGOLITH_CHECK(square <= (2 << 16), "descriptor ", row, " is of length ",
-                   std::sqrt(square / 65536.0), ", not of unit length");
   }
 }
 

@@ -28,7 +28,7 @@ struct TrackedFeature {
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();
   Eigen::Vector3d bearing = Eigen::Vector3d::UnitZ();  ///< unit, camera frame
   Eigen::Vector2d velocity =
-      Eigen::Vector2d::Zero();  ///< pixels/s since the frame before; 0 for a new track
+      Eigen::Vector2d::Zero();  ///< pixels/s since the frame before; 0 for a new or recovered track
   float score = 0.0F;           ///< of the detection; LK: of the first
   int age = 1;                  ///< frames in which it was seen
   bool recovered = false;       ///< was lost and found again in this frame

@@ -70,7 +70,8 @@ void FeatureOptions::Check() const {
       std::any_of(kFrontends.begin(), kFrontends.end(),
                   [&](const FrontendName& candidate) { return frontend == candidate.name; });
   REGOLITH_CHECK(known, "frontend=", frontend);
-  REGOLITH_CHECK(max_keypoints >= 1 && max_keypoints <= 20000, "max_keypoints=", max_keypoints);
+  REGOLITH_CHECK(max_keypoints >= 1 && max_keypoints <= kMaxKeypoints,
+                 "max_keypoints=", max_keypoints);
   REGOLITH_CHECK(min_distance >= 1, "min_distance=", min_distance);
   REGOLITH_CHECK(nms_radius >= 1, "nms_radius=", nms_radius);
   REGOLITH_CHECK(border >= 0, "border=", border);

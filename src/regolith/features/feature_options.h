@@ -101,12 +101,14 @@ struct TrackMemoryOptions {
   void Check() const;
 };
 
+inline constexpr int kMaxKeypoints = 20000;
+
 struct FeatureOptions {
   std::string frontend = "ghost";  ///< one of kFrontends
-  int max_keypoints = 500;
-  int min_distance = 8;  ///< pixels between keypoints of st_lk and of tracked points
-  int nms_radius = 4;    ///< pixels; no two keypoints of a network are nearer
-  int border = 4;        ///< pixels without keypoints along the image's edge
+  int max_keypoints = 500;         ///< 1 to kMaxKeypoints
+  int min_distance = 8;            ///< pixels between keypoints of st_lk and of tracked points
+  int nms_radius = 4;              ///< pixels; no two keypoints of a network are nearer
+  int border = 4;                  ///< pixels without keypoints along the image's edge
   double redetect_share =
       0.9;  ///< LK frontends: of max_keypoints tracked, below which new points are looked for
   AdaptiveThresholdOptions adaptive;

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "regolith/features/feature_options.h"
 #include "regolith/sensor/image.h"

@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/features/matching_frontend.h"
+
+#include <algorithm>
+
+#include "regolith/features/outlier_rejection.h"
+#include "regolith/features/track_stream.h"
+
+namespace regolith {
+namespace {
+
+class MatchingFrontend final : public FeatureFrontend {
+ public:
+  MatchingFrontend(const FeatureOptions& options, const CameraModel* camera,
+                   std::unique_ptr<FeatureExtractor> extractor)
+      : options_(options),
+        extractor_(std::move(extractor)),
+        matcher_(options.matcher),
+        stream_(options, camera) {}
+
+  TrackedFrame Track(const FrontendInput& input) override {
+    const bool follows = stream_.Begin(input);
+    TrackedFrame frame;
+    Stopwatch stopwatch;
+    Detect(*input.image, input.mask, &keypoints_, &bearings_);
+    stopwatch.Lap("extract");
+    AppendStages("features_extract", *extractor_, stopwatch.stages().back().milliseconds,
+                 &frame.stages);
+    matches_.clear();
+    if (follows) MatchTracks();
+    stopwatch.Lap("features_match");
+    const int rejected = RejectMatches();
+    stopwatch.Lap("features_reject");
+    ContinueTracks();
+    stream_.Finish(extractor_->status(), &frame);
+    frame.status.detected = detected_;
+    frame.status.rejected = rejected;
+    stopwatch.Lap("features_track");
+    frame.stages.insert(frame.stages.end(), stopwatch.stages().begin() + 1,
+                        stopwatch.stages().end());
+    return frame;
+  }
+
+  PairMatches MatchPair(const Image& first, const Image& second) override;
+
+  void Reset() override {
+    stream_.Reset();
+    extractor_->Reset();
+  }
+
+ private:
+  /// Keypoints with their bearings; those without one are dropped.
+  void Detect(const Image& image, const Image* mask, FeatureSet* keypoints,
+              std::vector<Eigen::Vector3d>* bearings);
+  void MatchTracks();
+  /// Leaves the inliers in matches_; says how many were not.
+  int RejectMatches();
+  void ContinueTracks();
+
+  Observation Observed(size_t keypoint) const {
+    return {keypoints_.pixels[keypoint], bearings_[keypoint], &keypoints_.descriptors, keypoint};
+  }
+
+  FeatureOptions options_;
+  std::unique_ptr<FeatureExtractor> extractor_;
+  DescriptorMatcher matcher_;
+  TrackStream stream_;
+
+  FeatureSet keypoints_;
+  std::vector<Eigen::Vector3d> bearings_;
+  int detected_ = 0;
+  MatchGuide guide_;
+  std::vector<FeatureMatch> matches_;
+  Correspondences correspondences_;
+  std::vector<uint8_t> claimed_;  ///< 1 for keypoints that belong to a track
+  std::vector<size_t> left_;      ///< keypoints that do not
+  std::vector<Eigen::Vector2f> left_pixels_;
+  Descriptors left_descriptors_;
+  std::vector<RecoveredTrack> recovered_;
+};
+
+void MatchingFrontend::Detect(const Image& image, const Image* mask, FeatureSet* keypoints,
+                              std::vector<Eigen::Vector3d>* bearings) {
+  extractor_->Extract(image, mask, options_.max_keypoints, keypoints);
+  detected_ = static_cast<int>(keypoints->size());
+  bearings->clear();
+  std::vector<size_t> blind;
+  for (size_t i = 0; i < keypoints->size(); ++i) {
+    const auto bearing = stream_.geometry().Bearing(keypoints->pixels[i]);
+    if (!bearing) blind.push_back(i);
+    bearings->push_back(bearing.value_or(Eigen::Vector3d::Zero()));
+  }
+  if (blind.empty()) return;
+  FeatureSet seen;
+  seen.descriptors.ResetLike(keypoints->descriptors);
+  std::vector<Eigen::Vector3d> seen_bearings;
+  for (size_t i = 0; i < keypoints->size(); ++i) {
+    if (std::binary_search(blind.begin(), blind.end(), i)) continue;
+    seen.pixels.push_back(keypoints->pixels[i]);
+    seen.scores.push_back(keypoints->scores[i]);
+    seen.descriptors.Append(keypoints->descriptors, i);
+    seen_bearings.push_back((*bearings)[i]);
+  }
+  *keypoints = std::move(seen);
+  *bearings = std::move(seen_bearings);
+}
+
+void MatchingFrontend::MatchTracks() {
+  if (stream_.tracks().empty() || keypoints_.size() == 0) return;
+  guide_.predicted = stream_.predicted();
+  guide_.radii.assign(guide_.predicted.size(), static_cast<float>(options_.memory.search_radius));
+  matcher_.MatchGuided(stream_.descriptors(), keypoints_.descriptors, guide_, keypoints_.pixels,
+                       &matches_);
+}
+
+int MatchingFrontend::RejectMatches() {
+  const TrackGeometry& geometry = stream_.geometry();
+  correspondences_ = Correspondences();
+  for (const FeatureMatch& match : matches_) {
+    const TrackedFeature& track = stream_.tracks()[static_cast<size_t>(match.first)];
+    const auto keypoint = static_cast<size_t>(match.second);
+    correspondences_.first.push_back(track.pixel);
+    correspondences_.second.push_back(keypoints_.pixels[keypoint]);
+    if (!geometry.has_camera()) continue;
+    correspondences_.first_bearings.push_back(track.bearing);
+    correspondences_.second_bearings.push_back(bearings_[keypoint]);
+  }
+  if (matches_.empty()) return 0;
+  const OutlierRejection rejection = RejectOutliers(
+      correspondences_, geometry.focal(), stream_.R_current_previous(), options_.rejection);
+  size_t kept = 0;
+  for (size_t i = 0; i < matches_.size(); ++i) {
+    if (rejection.inliers[i] != 0) matches_[kept++] = matches_[i];
+  }
+  const int rejected = static_cast<int>(matches_.size() - kept);
+  matches_.resize(kept);
+  return rejected;
+}
+
+void MatchingFrontend::ContinueTracks() {
+  claimed_.assign(keypoints_.size(), 0);
+  for (const FeatureMatch& match : matches_) {
+    claimed_[static_cast<size_t>(match.second)] = 1;
+    stream_.Continue(static_cast<size_t>(match.first), Observed(static_cast<size_t>(match.second)));
+  }
+  stream_.EndContinuing();
+  left_.clear();
+  left_pixels_.clear();
+  left_descriptors_.ResetLike(keypoints_.descriptors);
+  for (size_t i = 0; i < keypoints_.size(); ++i) {
+    if (claimed_[i] != 0) continue;
+    left_.push_back(i);
+    left_pixels_.push_back(keypoints_.pixels[i]);
+    left_descriptors_.Append(keypoints_.descriptors, i);
+  }
+  // Before the tracks lost in this frame are remembered: their matches have just been refused.
+  stream_.Recover(left_pixels_, left_descriptors_, &recovered_);
+  stream_.RememberUnseen({});
+  for (const RecoveredTrack& track : recovered_) {
+    const size_t keypoint = left_[static_cast<size_t>(track.keypoint)];
+    claimed_[keypoint] = 1;
+    stream_.Resume(track.feature, Observed(keypoint));
+  }
+  for (const size_t keypoint : left_) {
+    if (claimed_[keypoint] == 0) stream_.Start(keypoints_.scores[keypoint], Observed(keypoint));
+  }
+}
+
+PairMatches MatchingFrontend::MatchPair(const Image& first, const Image& second) {
+  const TrackGeometry& geometry = stream_.geometry();
+  geometry.CheckImage(first);
+  geometry.CheckImage(second);
+  PairMatches pair;
+  // The stream's thresholds are forgotten, so that a pair does not depend on what came before.
+  extractor_->Reset();
+  Stopwatch stopwatch;
+  Correspondences all;
+  Detect(first, nullptr, &pair.first, &all.first_bearings);
+  stopwatch.Lap("extract");
+  AppendStages("extract_1", *extractor_, stopwatch.stages().back().milliseconds, &pair.stages);
+  pair.first_status = extractor_->status();
+  Stopwatch second_stopwatch;
+  Detect(second, nullptr, &pair.second, &all.second_bearings);
+  second_stopwatch.Lap("extract");
+  AppendStages("extract_2", *extractor_, second_stopwatch.stages().back().milliseconds,
+               &pair.stages);
+  pair.second_status = extractor_->status();
+  Stopwatch rest;
+  if (pair.first.size() > 0 && pair.second.size() > 0) {
+    matcher_.Match(pair.first.descriptors, pair.second.descriptors, &pair.matches);
+  }
+  rest.Lap("match");
+  Correspondences matched;
+  for (const FeatureMatch& match : pair.matches) {
+    const auto one = static_cast<size_t>(match.first);
+    const auto other = static_cast<size_t>(match.second);
+    matched.first.push_back(pair.first.pixels[one]);
+    matched.second.push_back(pair.second.pixels[other]);
+    if (!geometry.has_camera()) continue;
+    matched.first_bearings.push_back(all.first_bearings[one]);
+    matched.second_bearings.push_back(all.second_bearings[other]);
+  }
+  OutlierRejection rejection =
+      RejectOutliers(matched, geometry.focal(), std::nullopt, options_.rejection);
+  pair.inliers = std::move(rejection.inliers);
+  pair.rejection_model = rejection.model;
+  rest.Lap("reject");
+  pair.stages.insert(pair.stages.end(), rest.stages().begin(), rest.stages().end());
+  return pair;
+}
+
+}  // namespace
+
+std::unique_ptr<FeatureFrontend> CreateMatchingFrontend(
+    const FeatureOptions& options, const CameraModel* camera,
+    std::unique_ptr<FeatureExtractor> extractor) {
+  return std::make_unique<MatchingFrontend>(options, camera, std::move(extractor));
+}
+
+}  // namespace regolith
