@@ -35,8 +35,9 @@ FORBIDDEN = {
     "system": ESTIMATOR_BLIND | {"report", "exports"},
 }
 
-# `config` holds every folder's options, so it may include any folder's *_options.h, and what levels 0 to 2 offer.
-CONFIG_ANY_LEVEL = re.compile(r"_options\.h$")
+# `config` holds every folder's options and the networks' manifests, so it may include any folder's *_options.h and
+# *_manifest.h, and what levels 0 to 2 offer.
+CONFIG_ANY_LEVEL = re.compile(r"_(options|manifest)\.h$")
 
 STANDARD_HEADER = re.compile(r"^[a-z0-9_]+$")
 ALLOWED_IN_HEADERS = {"Eigen/Core", "Eigen/Geometry"}
@@ -59,7 +60,7 @@ def check_own(folder, target, name):
     if folder == "config":
         if LEVELS[target] <= 2 or CONFIG_ANY_LEVEL.search(name):
             return None
-        return f"config may include *_options.h and levels up to 2, not {name}"
+        return f"config may include *_options.h, *_manifest.h and levels up to 2, not {name}"
     if LEVELS[target] >= LEVELS[folder]:
         return f"{folder} (level {LEVELS[folder]}) may not include {target} (level {LEVELS[target]})"
     if target in FORBIDDEN.get(folder, set()):

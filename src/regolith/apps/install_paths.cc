@@ -3,7 +3,9 @@
 #include "regolith/apps/install_paths.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 #include "regolith/core/error.h"
 
@@ -30,26 +32,67 @@ fs::path ConfigFolder(const std::string& kind) {
                    "was not found beside the program; is the installation whole?");
 }
 
-}  // namespace
-
-std::vector<std::string> ConfigNames(const std::string& kind) {
+// The stems of a folder's YAML files, sorted.
+std::vector<std::string> YamlNames(const fs::path& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(ConfigFolder(kind))) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem());
   }
   std::sort(names.begin(), names.end());
   return names;
 }
 
-std::string FindConfig(const std::string& kind, const std::string& name) {
-  const fs::path named = ConfigFolder(kind) / (name + ".yaml");
+std::string Joined(const std::vector<std::string>& names) {
+  std::string joined;
+  for (const std::string& name : names) joined += (joined.empty() ? "" : ", ") + name;
+  return joined;
+}
+
+std::optional<std::string> FindNamed(const fs::path& folder, const std::string& name) {
+  const fs::path named = folder / (name + ".yaml");
   if (name.find('/') == std::string::npos && fs::is_regular_file(named)) return named;
   if (fs::is_regular_file(name)) return name;
-  std::string known;
-  for (const std::string& candidate : ConfigNames(kind)) {
-    known += (known.empty() ? "" : ", ") + candidate;
+  return std::nullopt;
+}
+
+// Empty where there is none.
+fs::path ModelFolder() {
+  for (const fs::path& root : Roots()) {
+    if (fs::is_directory(root / "models")) return root / "models";
   }
-  throw InputError(name, "is neither a file nor one of the " + kind + ": " + known);
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> ConfigNames(const std::string& kind) {
+  return YamlNames(ConfigFolder(kind));
+}
+
+std::string FindConfig(const std::string& kind, const std::string& name) {
+  if (const auto found = FindNamed(ConfigFolder(kind), name)) return *found;
+  throw InputError(name, "is neither a file nor one of the " + kind + ": " +
+                             Joined(YamlNames(ConfigFolder(kind))));
+}
+
+std::vector<std::string> ModelNames() {
+  const fs::path folder = ModelFolder();
+  return folder.empty() ? std::vector<std::string>() : YamlNames(folder);
+}
+
+std::string FindModel(const std::string& name) {
+  if (const auto found = FindNamed(ModelFolder(), name)) return *found;
+  const std::string known = Joined(ModelNames());
+  throw InputError(name, "is neither the manifest of a network (YAML) nor one of the models: " +
+                             (known.empty() ? "none are installed" : known));
+}
+
+std::string CacheFolder(const std::string& kind) {
+  const char* const cache = std::getenv("REGOLITH_CACHE");
+  if (cache != nullptr && *cache != '\0') return fs::path(cache) / kind;
+  const char* const home = std::getenv("HOME");
+  if (home == nullptr || *home == '\0') return "";
+  return fs::path(home) / ".cache" / "regolith" / kind;
 }
 
 std::string FindPlotly() {

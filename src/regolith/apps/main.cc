@@ -8,6 +8,7 @@
 
 #include "regolith/apps/evaluate.h"
 #include "regolith/apps/info.h"
+#include "regolith/apps/match.h"
 #include "regolith/apps/run.h"
 #include "regolith/apps/run_setup.h"
 #include "regolith/apps/simulate.h"
@@ -32,13 +33,17 @@ void AddOutput(CLI::App* app, Arguments& arguments) {
 }
 
 template <typename Arguments>
-void AddSettings(CLI::App* app, Arguments& arguments) {
+void AddOverrides(CLI::App* app, Arguments& arguments, const std::string& example) {
   app->add_option("--config", arguments.config, "YAML file laid over the defaults")
       ->type_name("FILE");
-  app->add_option("--set", arguments.set,
-                  "One setting, such as lio.scan_voxel_size=0.5; repeatable")
+  app->add_option("--set", arguments.set, "One setting, such as " + example + "; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+template <typename Arguments>
+void AddSettings(CLI::App* app, Arguments& arguments) {
+  AddOverrides(app, arguments, "lio.scan_voxel_size=0.5");
   app->add_option("--threads", arguments.threads, "Threads; 0 is one for each core")
       ->check(CLI::Range(0, 256))
       ->type_name("N")
@@ -164,6 +169,34 @@ void AddEvaluate(CLI::App& program, std::map<CLI::App*, Command>& commands) {
   commands[app] = [arguments] { return regolith::Evaluate(*arguments); };
 }
 
+void AddMatch(CLI::App& program, std::map<CLI::App*, Command>& commands) {
+  const auto arguments = std::make_shared<regolith::MatchArguments>();
+  CLI::App* app = program.add_subcommand("match", "Find the same points in two images");
+  app->add_option("image1", arguments->first, "PNG or JPEG")->required()->type_name("IMAGE1");
+  app->add_option("image2", arguments->second, "PNG or JPEG")->required()->type_name("IMAGE2");
+  app->add_option("--features", arguments->features,
+                  "ghost, ghost_paper, ghost_lk, superpoint, orb or st_lk [ghost]")
+      ->type_name("NAME");
+  app->add_option("--max-keypoints", arguments->max_keypoints, "Keypoints an image [500]")
+      ->type_name("N");
+  app->add_option("--homography", arguments->homography,
+                  "Truth: text file of the 3 x 3 numbers that take pixels of image 1 to image 2")
+      ->type_name("FILE");
+  app->add_option("--correspondences", arguments->correspondences,
+                  "Truth: raster of two bands, x and y in image 2 of each pixel of image 1")
+      ->type_name("FILE");
+  AddOverrides(app, *arguments, "features.precision=f32");
+  app->add_option("--threads", arguments->threads,
+                  "Threads of the network's inference; 0 is one for each core [2]")
+      ->check(CLI::Range(0, 256))
+      ->type_name("N");
+  AddOutput(app, *arguments);
+  app->footer(
+      "Example:\n  regolith match pairs/000000_1.png pairs/000000_2.png --correspondences "
+      "pairs/000000_flow.tif --out out/match");
+  commands[app] = [arguments] { return regolith::Match(*arguments); };
+}
+
 int RunInfo(const regolith::InfoArguments& arguments) {
   const regolith::RecordingIdentity identity = regolith::IdentifyRecording(arguments.recording);
   std::optional<regolith::RigCalibration> rig;
@@ -216,6 +249,7 @@ int main(int argc, char** argv) {
   AddSimulate(program, commands);
   AddRun(program, commands);
   AddEvaluate(program, commands);
+  AddMatch(program, commands);
   AddInfo(program, commands);
   try {
     program.parse(argc, argv);

@@ -243,6 +243,9 @@ void FieldReader::operator()(const char* key, bool& value) {
 void FieldReader::operator()(const char* key, std::string& value) {
   implementation_->Convert(key, value, "text");
 }
+void FieldReader::operator()(const char* key, std::vector<int>& value) {
+  implementation_->ConvertList(key, value, "whole numbers");
+}
 void FieldReader::operator()(const char* key, std::vector<double>& value) {
   implementation_->ConvertList(key, value, "numbers");
 }
@@ -271,6 +274,8 @@ void FieldReader::operator()(const char* key, SE3& value) {
     implementation_->FailAt(found, key, error.what());
   }
 }
+
+void FieldReader::Accept(const char* key) { implementation_->known.insert(key); }
 
 bool FieldReader::Has(const char* key) const { return implementation_->Find(key).IsDefined(); }
 
@@ -361,6 +366,11 @@ void FieldWriter::operator()(const char* key, bool value) {
 }
 void FieldWriter::operator()(const char* key, std::string& value) {
   implementation_->Line(std::string(key) + ": " + QuotedText(value));
+}
+void FieldWriter::operator()(const char* key, std::vector<int>& value) {
+  implementation_->Line(std::string(key) + ": " + implementation_->List(value, [](int number) {
+    return std::to_string(number);
+  }));
 }
 void FieldWriter::operator()(const char* key, std::vector<double>& value) {
   implementation_->Line(std::string(key) + ": " + implementation_->List(value, NumberText));

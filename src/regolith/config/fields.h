@@ -73,6 +73,7 @@ class FieldReader {
   void operator()(const char* key, uint64_t& value);
   void operator()(const char* key, bool& value);
   void operator()(const char* key, std::string& value);
+  void operator()(const char* key, std::vector<int>& value);
   void operator()(const char* key, std::vector<double>& value);
   void operator()(const char* key, std::vector<std::string>& value);
   /// A rigid motion as four rows of four numbers.
@@ -122,6 +123,8 @@ class FieldReader {
     child->Finish();
   }
 
+  /// Takes a key whatever stands below it, for what informs people alone.
+  void Accept(const char* key);
   bool Has(const char* key) const;
   std::vector<std::string> Keys() const;
   /// Throws InputError at the first key that was never asked for, with the nearest one that was.
@@ -154,6 +157,7 @@ class FieldWriter {
   void operator()(const char* key, uint64_t value);
   void operator()(const char* key, bool value);
   void operator()(const char* key, std::string& value);
+  void operator()(const char* key, std::vector<int>& value);
   void operator()(const char* key, std::vector<double>& value);
   void operator()(const char* key, std::vector<std::string>& value);
   void operator()(const char* key, SE3& value);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/features/feature_options.h"
 
+#include <algorithm>
+
 #include "regolith/core/check.h"
 
 namespace regolith {
@@ -10,14 +12,14 @@ void AdaptiveThresholdOptions::Check() const {
   REGOLITH_CHECK(cell_size >= 16, "adaptive.cell_size=", cell_size);
   REGOLITH_CHECK(initial > 0.0 && initial < 1.0, "adaptive.initial=", initial);
   REGOLITH_CHECK(floor > 0.0 && floor <= initial, "adaptive.floor=", floor);
-  REGOLITH_CHECK(max_share >= 1.0, "adaptive.max_share=", max_share);
+  REGOLITH_CHECK(evenness >= 0.0 && evenness <= 1.0, "adaptive.evenness=", evenness);
   REGOLITH_CHECK(memory >= 0.0 && memory <= 1.0, "adaptive.memory=", memory);
 }
 
 void NetworkOptions::Check() const {
   REGOLITH_CHECK(precision == "auto" || precision == "f32" || precision == "bf16",
-                 "network.precision=", precision, "; expected auto, f32 or bf16");
-  REGOLITH_CHECK(threads >= 1 && threads <= 64, "network.threads=", threads);
+                 "precision=", precision, "; expected auto, f32 or bf16");
+  REGOLITH_CHECK(threads >= 1 && threads <= 64, "threads=", threads);
 }
 
 void OpticalFlowOptions::Check() const {
@@ -64,7 +66,12 @@ void TrackMemoryOptions::Check() const {
 }
 
 void FeatureOptions::Check() const {
-  REGOLITH_CHECK(max_keypoints >= 1 && max_keypoints <= 20000, "max_keypoints=", max_keypoints);
+  const bool known =
+      std::any_of(kFrontends.begin(), kFrontends.end(),
+                  [&](const FrontendName& candidate) { return frontend == candidate.name; });
+  REGOLITH_CHECK(known, "frontend=", frontend);
+  REGOLITH_CHECK(max_keypoints >= 1 && max_keypoints <= kMaxKeypoints,
+                 "max_keypoints=", max_keypoints);
   REGOLITH_CHECK(min_distance >= 1, "min_distance=", min_distance);
   REGOLITH_CHECK(nms_radius >= 1, "nms_radius=", nms_radius);
   REGOLITH_CHECK(border >= 0, "border=", border);

@@ -2,25 +2,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <string>
 
 namespace regolith {
 
-/// Where keypoints may lie and how their thresholds adapt. The image is cut into cells of about
-/// `cell_size`; each has a threshold of its own that moves from frame to frame, and within a frame
-/// until the number asked for is met.
+/// A frontend that can be asked for, and the network (models/MODEL.yaml) that it runs.
+struct FrontendName {
+  const char* name;
+  const char* model;  ///< empty: none
+};
+
+inline constexpr std::array<FrontendName, 6> kFrontends = {{{"ghost", "ghost"},
+                                                            {"ghost_paper", "ghost_paper"},
+                                                            {"ghost_lk", "ghost"},
+                                                            {"superpoint", "superpoint"},
+                                                            {"orb", ""},
+                                                            {"st_lk", ""}}};
+
+/// How detection thresholds adapt. The image is cut into cells of about `cell_size`; each has a
+/// threshold of its own that moves from frame to frame towards the score which would give the cell
+/// its even share of keypoints, and all of them move together within a frame until the number asked
+/// for is met.
 struct AdaptiveThresholdOptions {
-  bool enabled = true;     ///< false: the fixed `initial` threshold, best first, everywhere
+  bool enabled = true;     ///< false: the fixed threshold `initial`, the same everywhere
   int cell_size = 80;      ///< pixels
   double initial = 0.015;  ///< score
-  double floor = 0.003;    ///< score that noise in flat shadow and black sky stays below
-  double max_share = 2.5;  ///< of the even share, before other cells are asked for more
-  double memory = 0.5;     ///< weight of the last frame's threshold
+  double floor = 0.004;    ///< score that noise in flat shadow and black sky stays below
+  double evenness = 0.5;   ///< 0: one threshold for all cells; 1: as many keypoints in each
+  double memory = 0.5;     ///< weight of the last frame's threshold (of its logarithm)
 
   void Check() const;
 };
 
 struct NetworkOptions {
+  std::string model;               ///< name or manifest; empty: the one that the frontend is for
   std::string precision = "auto";  ///< f32, bf16, or auto: bf16 where the processor has it
   int threads = 2;                 ///< of inference
   std::string cache;               ///< folder of compiled models; empty: none
@@ -85,12 +101,14 @@ struct TrackMemoryOptions {
   void Check() const;
 };
 
+inline constexpr int kMaxKeypoints = 20000;
+
 struct FeatureOptions {
-  std::string frontend = "ghost";  ///< ghost, ghost_paper, ghost_lk, superpoint, orb, st_lk
-  int max_keypoints = 500;
-  int min_distance = 8;  ///< pixels between keypoints of st_lk and of tracked points
-  int nms_radius = 4;    ///< pixels; no two keypoints of a network are nearer
-  int border = 4;        ///< pixels without keypoints along the image's edge
+  std::string frontend = "ghost";  ///< one of kFrontends
+  int max_keypoints = 500;         ///< 1 to kMaxKeypoints
+  int min_distance = 8;            ///< pixels between keypoints of st_lk and of tracked points
+  int nms_radius = 4;              ///< pixels; no two keypoints of a network are nearer
+  int border = 4;                  ///< pixels without keypoints along the image's edge
   double redetect_share =
       0.9;  ///< LK frontends: of max_keypoints tracked, below which new points are looked for
   AdaptiveThresholdOptions adaptive;

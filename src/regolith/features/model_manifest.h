@@ -13,6 +13,14 @@ struct TensorDescription {
   std::vector<int> shape;
 };
 
+/// Files (.npy, float32) of one input of a network and the outputs that its exporter had for it;
+/// empty where the manifest names none.
+struct ModelParity {
+  std::string input;
+  std::string logits;
+  std::string descriptors;
+};
+
 /// A network's file and what it must be: models/NAME.yaml, made by `python -m regolith_train
 /// export`. Input: grey, 1 × 1 × height × width, sides divisible by 8, values (grey / 255 − mean) /
 /// scale. Outputs: detector logits, 1 × 65 × height/8 × width/8 (64 pixels of a cell row by row,
@@ -26,6 +34,7 @@ struct ModelManifest {
   TensorDescription descriptors;
   double mean = 0.0;
   double scale = 1.0;
+  ModelParity parity;
 };
 
 }  // namespace regolith

@@ -254,6 +254,37 @@ void WriteHeights(const std::string& path, const HeightGrid& grid) {
   output.Commit();
 }
 
+TwoBands ReadTwoBands(const std::string& path) {
+  if (!std::filesystem::exists(path)) throw InputError(path, "no such file");
+  const QuietGdal quiet;
+  GDALAllRegister();
+  const Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr,
+                                          nullptr, nullptr));
+  if (dataset == nullptr) {
+    throw InputError(path, "is not a raster that GDAL can read (" + LastError() + ")");
+  }
+  if (dataset->GetRasterCount() != 2) {
+    throw InputError(path, Concatenate("has ", dataset->GetRasterCount(),
+                                       " raster bands; expected two, x and y"));
+  }
+  TwoBands bands{dataset->GetRasterXSize(), dataset->GetRasterYSize(), {}, {}};
+  const size_t count = static_cast<size_t>(bands.width) * static_cast<size_t>(bands.height);
+  for (int number = 1; number <= 2; ++number) {
+    std::vector<float>& values = number == 1 ? bands.first : bands.second;
+    values.resize(count);
+    GDALRasterBand& band = *dataset->GetRasterBand(number);
+    if (band.RasterIO(GF_Read, 0, 0, bands.width, bands.height, values.data(), bands.width,
+                      bands.height, GDT_Float32, 0, 0, nullptr) != CE_None) {
+      throw InputError(path, "cannot be read (" + LastError() + "); is it whole?");
+    }
+    int has_no_data = 0;
+    const auto no_data = static_cast<float>(band.GetNoDataValue(&has_no_data));
+    if (has_no_data == 0) continue;
+    std::replace(values.begin(), values.end(), no_data, std::numeric_limits<float>::quiet_NaN());
+  }
+  return bands;
+}
+
 void WriteTwoBands(const std::string& path, int width, const std::vector<float>& first,
                    const std::vector<float>& second) {
   REGOLITH_CHECK(

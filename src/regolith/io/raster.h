@@ -32,6 +32,18 @@ HeightGrid ReadHeights(const std::string& path, const std::optional<RasterCrop>&
 /// local metres. Throws OutputError.
 void WriteHeights(const std::string& path, const HeightGrid& grid);
 
+/// Two bands of one size, rows one after the other.
+struct TwoBands {
+  int width = 0;
+  int height = 0;
+  std::vector<float> first;
+  std::vector<float> second;
+};
+
+/// A raster of two bands, such as WriteTwoBands makes; no-data becomes NaN. Throws InputError for a
+/// file that is no raster or has another number of bands.
+TwoBands ReadTwoBands(const std::string& path);
+
 /// A GeoTIFF of two float32 bands, `width` × height pixels each, row by row. Throws OutputError.
 void WriteTwoBands(const std::string& path, int width, const std::vector<float>& first,
                    const std::vector<float>& second);

@@ -179,6 +179,40 @@ TEST(Raster, ReadsRealElevationModels) {
   EXPECT_GT(*high - *low, 0.5F);
 }
 
+TEST(Raster, ReadsTheTwoBandsThatItWrites) {
+  const TestFolder folder;
+  const std::string path = folder.Path("flow.tif");
+  WriteTwoBands(path, 3, {0, 1, NAN, 3, 4, 5}, {10, 11, NAN, 13, 14, -15.25});
+  const TwoBands bands = ReadTwoBands(path);
+  EXPECT_EQ(bands.width, 3);
+  EXPECT_EQ(bands.height, 2);
+  EXPECT_THAT(bands.first, testing::Pointwise(testing::NanSensitiveFloatEq(),
+                                              std::vector<float>{0, 1, NAN, 3, 4, 5}));
+  EXPECT_THAT(bands.second, testing::Pointwise(testing::NanSensitiveFloatEq(),
+                                               std::vector<float>{10, 11, NAN, 13, 14, -15.25}));
+}
+
+TEST(Raster, RefusesWhatIsNotTwoBands) {
+  const TestFolder folder;
+  const auto error_of = [](const std::string& path) -> std::string {
+    try {
+      ReadTwoBands(path);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(error_of(folder.Path("absent.tif")), HasSubstr("no such file"));
+  EXPECT_THAT(error_of(MakeRaster(folder, {})), HasSubstr("has 1 raster bands; expected two"));
+  WriteFile(folder.Path("text.tif"), "flow");
+  EXPECT_THAT(error_of(folder.Path("text.tif")), HasSubstr("is not a raster"));
+  WriteTwoBands(folder.Path("flow.tif"), 64, std::vector<float>(4096, 1.5F),
+                std::vector<float>(4096, 2.5F));
+  const auto size = std::filesystem::file_size(folder.Path("flow.tif"));
+  std::filesystem::resize_file(folder.Path("flow.tif"), size / 2);
+  EXPECT_NE(error_of(folder.Path("flow.tif")), "");
+}
+
 TEST(Raster, UnwritableFolderIsAnOutputError) {
   HeightGrid grid;
   grid.columns = grid.rows = 1;

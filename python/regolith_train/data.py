@@ -1,0 +1,221 @@
+# SPDX-FileCopyrightText: 2026 The Regolith authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Training samples: two views of one scene, with keypoints and what of them is seen in both.
+
+A view is cut from an image by a random homography and changed photometrically. Two kinds of scene: one labelled image seen twice
+(the homography is the truth), and a pair of the simulator (`pairs/` of `regolith simulate`: the flow is the truth).
+"""
+
+import dataclasses
+import pathlib
+
+import numpy
+import torch
+from torch.utils.data import Dataset
+
+from regolith_train.homography import HomographyRange, random_homography, transform, warp_image
+from regolith_train.labels import label_path, load_grey
+from regolith_train.photometry import augment
+
+HEIGHT, WIDTH = 240, 320
+POINTS = 192  # correspondences a sample
+LABELS = 512  # keypoint labels a view, at most
+
+
+@dataclasses.dataclass
+class View:
+    image: torch.Tensor  # 1 × HEIGHT × WIDTH, 0 to 1
+    inside: torch.Tensor  # 1 × HEIGHT × WIDTH, where it shows the picture
+    labels: torch.Tensor  # LABELS × 3: x, y, weight; weight 0 where there is none
+
+
+def validation(path):
+    """One image in twenty is kept out of training, by its name alone."""
+    return sum(pathlib.Path(path).name.encode()) % 20 == 0
+
+
+def cut(image, homography, pixels, weights, generator, photometric):
+    warped, inside = warp_image(torch.from_numpy(image)[None], homography, WIDTH, HEIGHT)
+    if photometric:
+        warped = augment(warped, generator) * inside
+    places = transform(homography, pixels)
+    seen = numpy.flatnonzero(within(places))
+    labels = numpy.zeros((LABELS, 3), dtype=numpy.float32)
+    chosen = seen[:LABELS]
+    labels[: len(chosen), :2] = places[chosen]
+    labels[: len(chosen), 2] = weights[chosen]
+    return View(warped, inside, torch.from_numpy(labels))
+
+
+def within(places, margin=4):
+    with numpy.errstate(invalid="ignore"):
+        return ((places >= margin) & (places <= numpy.array([WIDTH, HEIGHT]) - 1 - margin)).all(axis=1)
+
+
+def window(generator, width, height, zoom):
+    """The homography that shows a random part of an image, `zoom` (range) pixels of the view a pixel of the image."""
+    lowest = max(zoom[0], min(WIDTH / width, HEIGHT / height))
+    factor = generator.uniform(lowest, max(zoom[1], lowest))
+    left = generator.uniform(0, max(width - WIDTH / factor, 0))
+    top = generator.uniform(0, max(height - HEIGHT / factor, 0))
+    return numpy.array([[factor, 0, -factor * left], [0, factor, -factor * top], [0, 0, 1]])
+
+
+def correspondences(first, second, chosen, generator):
+    """Of the points seen in both views, POINTS at random: places in both, and the rows they came from; rows are -1 beyond them."""
+    chosen = generator.permutation(chosen)[:POINTS]
+    places = numpy.zeros((2, POINTS, 2), dtype=numpy.float32)
+    places[0, : len(chosen)], places[1, : len(chosen)] = first[chosen], second[chosen]
+    rows = numpy.full(POINTS, -1)
+    rows[: len(chosen)] = chosen
+    return torch.from_numpy(places), rows
+
+
+def teacher_descriptors(descriptors, rows):
+    result = numpy.zeros((POINTS, descriptors.shape[1]), dtype=numpy.float32)
+    result[rows >= 0] = descriptors[rows[rows >= 0]]
+    return torch.from_numpy(result)
+
+
+def sample(first, second, places, rows, descriptors):
+    return {
+        "images": torch.stack([first.image, second.image]),
+        "inside": torch.stack([first.inside, second.inside]),
+        "labels": torch.stack([first.labels, second.labels]),
+        "places": places,
+        "valid": torch.from_numpy(rows >= 0),
+        "teacher": teacher_descriptors(descriptors, rows),
+    }
+
+
+class SingleImages(Dataset):
+    """One labelled image, seen twice."""
+
+    def __init__(self, images, labels, limits=None, photometric=True):
+        self.images = list(images)
+        self.labels = labels
+        self.limits = limits or HomographyRange(scale=1.6, rotation=0.4, full_rotation_share=0.45, perspective=0.2)
+        self.photometric = photometric
+
+    def __len__(self):
+        return len(self.images)
+
+    def draw(self, index, generator):
+        image = load_grey(self.images[index])
+        label = numpy.load(label_path(self.labels, self.images[index]))
+        if generator.uniform() < 0.5:
+            image = numpy.ascontiguousarray(image[:, ::-1])
+            pixels = label["pixels"] * [-1, 1] + [image.shape[1] - 1, 0]
+        else:
+            pixels = label["pixels"]
+        weights = numpy.ones(len(pixels))
+        base = window(generator, image.shape[1], image.shape[0], (0.75, 1.25))
+        other = random_homography(generator, WIDTH, HEIGHT, self.limits) @ base
+        first = cut(image, base, pixels, weights, generator, self.photometric)
+        second = cut(image, other, pixels, weights, generator, self.photometric)
+        places = transform(base, pixels), transform(other, pixels)
+        chosen = numpy.flatnonzero(within(places[0]) & within(places[1]))
+        places, rows = correspondences(*places, chosen, generator)
+        return sample(first, second, places, rows, label["descriptors"])
+
+
+class SimulatedPairs(Dataset):
+    """Pairs of `regolith simulate --pairs`: other places, suns and exposures, with true correspondences.
+
+    A keypoint of one image whose true place in the other has none there is a bad label (a shadow's edge under another sun, an
+    outline before far ground): it counts as a third of one.
+    """
+
+    DOUBTFUL = 0.3
+
+    def __init__(self, folders, labels, photometric=True):
+        self.labels = labels
+        self.photometric = photometric
+        self.pairs = [path for folder in folders for path in sorted(pathlib.Path(folder).glob("*_1.png"))
+                      if label_path(labels, path).exists() and label_path(labels, self.other(path)).exists()]  # fmt: skip
+        self.limits = HomographyRange(scale=1.3, rotation=0.3, full_rotation_share=0.3, perspective=0.1)
+
+    @staticmethod
+    def other(path):
+        return path.with_name(path.name.replace("_1.png", "_2.png"))
+
+    def __len__(self):
+        return len(self.pairs)
+
+    def draw(self, index, generator):
+        paths = self.pairs[index], self.other(self.pairs[index])
+        images = [load_grey(path) for path in paths]
+        labels = [numpy.load(label_path(self.labels, path)) for path in paths]
+        pixels = [label["pixels"] for label in labels]
+        moved = flow_at(load_flow(paths[0]), pixels[0])
+        weights = self.weights(pixels, moved)
+        height, width = images[0].shape
+        base = window(generator, width, height, (0.5, 1.0))
+        target = self.follow(base, pixels[0], moved, generator)
+        first = cut(images[0], base, pixels[0], weights[0], generator, self.photometric)
+        second = cut(images[1], target, pixels[1], weights[1], generator, self.photometric)
+        places = transform(base, pixels[0]), transform(target, moved)
+        chosen = numpy.flatnonzero(within(places[0]) & within(places[1]) & (weights[0] == 1))
+        places, rows = correspondences(*places, chosen, generator)
+        return sample(first, second, places, rows, labels[0]["descriptors"])
+
+    def weights(self, pixels, moved):
+        """Labels seen from both sides are sure; so are those whose place in the other image is not known."""
+        first = numpy.ones(len(pixels[0]))
+        second = numpy.ones(len(pixels[1]))
+        known = numpy.isfinite(moved).all(axis=1)
+        if not known.any() or len(pixels[1]) == 0:
+            return first, second
+        distance = numpy.linalg.norm(moved[known, None] - pixels[1][None], axis=2)
+        first[known] = numpy.where(distance.min(axis=1) < 2.0, 1.0, self.DOUBTFUL)
+        return first, second
+
+    def follow(self, base, pixels, moved, generator):
+        """A window of the second image that shows what the first one's shows, turned and scaled at random."""
+        shown = within(transform(base, pixels)) & numpy.isfinite(moved).all(axis=1)
+        shift = numpy.median(moved[shown] - pixels[shown], axis=0) if shown.any() else numpy.zeros(2)
+        offset = numpy.array([[1, 0, -shift[0]], [0, 1, -shift[1]], [0, 0, 1]])
+        return random_homography(generator, WIDTH, HEIGHT, self.limits) @ base @ offset
+
+
+def load_flow(path):
+    """Where each pixel of the first image of a pair lies in the second: 2 × height × width, NaN where it is not seen."""
+    cached = path.with_name(path.name.replace("_1.png", "_flow.npy"))
+    if not cached.exists():
+        bands = read_two_bands(path.with_name(path.name.replace("_1.png", "_flow.tif")))
+        numpy.save(cached, bands)
+    return numpy.load(cached, mmap_mode="r")
+
+
+def flow_at(flow, pixels):
+    """The flow at pixels (n × 2) by the nearest one and the offset to it."""
+    columns = numpy.clip(numpy.rint(pixels[:, 0]).astype(int), 0, flow.shape[2] - 1)
+    rows = numpy.clip(numpy.rint(pixels[:, 1]).astype(int), 0, flow.shape[1] - 1)
+    offset = pixels - numpy.stack([columns, rows], axis=1)
+    return numpy.stack([flow[0, rows, columns], flow[1, rows, columns]], axis=1) + offset
+
+
+def read_two_bands(path):
+    """The flow's GeoTIFF: pillow reads one band alone, so tifffile does."""
+    import tifffile
+
+    bands = tifffile.imread(path)
+    return numpy.ascontiguousarray(bands if bands.shape[0] == 2 else bands.transpose(2, 0, 1), dtype=numpy.float32)
+
+
+class Mixture(Dataset):
+    """`length` samples; each is drawn by its own number, so that a run that resumes goes on with the same ones."""
+
+    def __init__(self, datasets, shares, length, seed, start=0):
+        self.datasets = [dataset for dataset in datasets if len(dataset) > 0]
+        shares = numpy.array([share for dataset, share in zip(datasets, shares) if len(dataset) > 0], dtype=float)
+        self.shares = shares / shares.sum()
+        self.length, self.seed, self.start = length, seed, start
+
+    def __len__(self):
+        return self.length - self.start
+
+    def __getitem__(self, index):
+        generator = numpy.random.default_rng([self.seed, index + self.start])
+        dataset = self.datasets[generator.choice(len(self.datasets), p=self.shares)]
+        return dataset.draw(int(generator.integers(len(dataset))), generator)

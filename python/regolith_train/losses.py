@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: 2026 The Regolith authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is minimised. `paper_loss` is the paper's, section 2.2.3; `ghost_loss` is what our own network learns by."""
+
+import torch
+from torch.nn import functional
+
+from regolith_train.networks import CELL
+
+
+def detector_targets(labels, height, width, soft):
+    """Keypoint labels (batch × n × 3: x, y, weight) as distributions over the 65 channels: batch × 65 × height/8 × width/8.
+
+    Soft: a keypoint between pixels is shared among its four, so the scores say where in the pixel it lies. Hard: the whole of a
+    cell is its strongest label (the first), as SuperPoint does.
+    """
+    batch, rows, columns = labels.shape[0], height // CELL, width // CELL
+    density = labels.new_zeros(batch, height, width)
+    x, y, weight = labels[..., 0], labels[..., 1], labels[..., 2]
+    index = torch.arange(batch, device=labels.device)[:, None].expand_as(x)
+    if soft:
+        left, top = x.floor(), y.floor()
+        for dy in (0, 1):
+            for dx in (0, 1):
+                share = (1 - (x - left - dx).abs()) * (1 - (y - top - dy).abs()) * weight
+                column, row = (left + dx).long().clamp(0, width - 1), (top + dy).long().clamp(0, height - 1)
+                density.index_put_((index, row, column), share, accumulate=True)
+    else:
+        column, row = x.round().long().clamp(0, width - 1), y.round().long().clamp(0, height - 1)
+        order = torch.arange(x.shape[1], 0, -1, device=x.device, dtype=density.dtype)
+        density.index_put_((index, row, column), weight * (1 + order), accumulate=True)
+    cells = functional.pixel_unshuffle(density[:, None], CELL)
+    if not soft:
+        best = cells.argmax(1, keepdim=True)
+        cells = torch.zeros_like(cells).scatter_(1, best, (cells.amax(1, keepdim=True) > 0).to(cells.dtype))
+    total = cells.sum(1, keepdim=True)
+    empty = (1 - total).clamp(min=0)
+    assert cells.shape[2:] == (rows, columns)
+    return torch.cat([cells, empty], dim=1) / (total + empty)
+
+
+def detector_loss(logits, labels, inside, soft):
+    """Cross-entropy a cell, over the cells that lie inside the picture."""
+    height, width = inside.shape[-2:]
+    targets = detector_targets(labels, height, width, soft)
+    seen = functional.avg_pool2d(inside.to(logits.dtype), CELL)[:, 0] > 0.99
+    entropy = -(targets * functional.log_softmax(logits.float(), dim=1)).sum(1)
+    return (entropy * seen).sum() / seen.sum().clamp(min=1)
+
+
+def sample_descriptors(descriptors, places):
+    """Descriptors (batch × dimension × h/8 × w/8) at pixels (batch × n × 2): batch × n × dimension, unit length."""
+    rows, columns = descriptors.shape[-2:]
+    size = places.new_tensor([columns * CELL, rows * CELL])
+    grid = (2 * places + 1) / size - 1
+    sampled = functional.grid_sample(descriptors.float(), grid[:, :, None], align_corners=False, padding_mode="border")
+    return functional.normalize(sampled[..., 0].transpose(1, 2), dim=-1)
+
+
+def triplet_loss(first, second, places, valid, margin=1.0, negatives=8, radius=16.0):
+    """The paper's sparse descriptor loss: pulls correspondences together, pushes the M nearest others (in descriptor space) of
+    those at least `radius` pixels away by `margin` further."""
+    distance = (2 - 2 * first @ second.transpose(1, 2)).clamp(min=0)
+    positive = distance.diagonal(dim1=1, dim2=2)
+    apart = torch.cdist(places, places) > radius
+    allowed = apart & valid[:, None, :] & valid[:, :, None]
+    others = distance.masked_fill(~allowed, 4.0)
+    nearest = others.topk(negatives, dim=2, largest=False).values.mean(2)
+    loss = functional.relu(margin + positive - nearest) * valid
+    return loss.sum() / valid.sum().clamp(min=1)
+
+
+def contrastive_loss(first, second, teacher, places, valid, temperature, teacher_share=0.4, radius=6.0):
+    """InfoNCE over the whole batch (van den Oord et al. 2018), its targets softened by how alike the teacher says that the points
+    are. Points nearer than `radius` to the true one are no negatives: bilinear descriptors cannot tell them apart."""
+    batch, count, _ = first.shape
+    similarity = first.reshape(batch * count, -1) @ second.reshape(batch * count, -1).T / temperature
+    near = torch.zeros(batch, count, batch, count, dtype=torch.bool, device=first.device)
+    index = torch.arange(batch)
+    near[index, :, index] = torch.cdist(places, places) < radius
+    near = near.reshape(batch * count, -1)
+    near.fill_diagonal_(False)
+    usable = valid.reshape(-1)
+    excluded = near | ~usable[None, :]
+    similarity = similarity.masked_fill(excluded, -1e4)
+    likeness = (teacher.reshape(batch * count, -1) @ teacher.reshape(batch * count, -1).T) / 0.06
+    alike = functional.softmax(likeness.masked_fill(excluded, -1e4), dim=1)
+    target = (1 - teacher_share) * torch.eye(batch * count, device=first.device) + teacher_share * alike
+    rows = -(target * functional.log_softmax(similarity, dim=1)).sum(1)
+    columns = -(target.T * functional.log_softmax(similarity, dim=0)).sum(0)
+    return ((rows + columns) * usable).sum() / (2 * usable.sum().clamp(min=1))
+
+
+def paper_loss(network, sample, weight=1.2):
+    """(L_p + L_wp) + λ L_d, with λ = 1.2."""
+    logits, descriptors = network(flat(sample["images"]))
+    detection = 2 * detector_loss(logits, flat(sample["labels"]), flat(sample["inside"]), soft=False)
+    first, second = both(descriptors, sample["places"])
+    description = triplet_loss(first, second, sample["places"][:, 1], sample["valid"])
+    return {"detector": detection, "descriptor": description, "loss": detection + weight * description}
+
+
+def ghost_loss(network, sample, weight=1.0, temperature=0.07):
+    logits, descriptors = network(flat(sample["images"]))
+    detection = 2 * detector_loss(logits, flat(sample["labels"]), flat(sample["inside"]), soft=True)
+    first, second = both(descriptors, sample["places"])
+    description = contrastive_loss(first, second, sample["teacher"], sample["places"][:, 1], sample["valid"], temperature)
+    return {"detector": detection, "descriptor": description, "loss": detection + weight * description}
+
+
+def flat(values):
+    """Views of a batch (batch × 2 × ...) as a batch of views (2 batch × ...), both of a sample next to each other."""
+    return values.flatten(0, 1)
+
+
+def both(descriptors, places):
+    sampled = sample_descriptors(descriptors, flat(places))
+    return sampled[0::2], sampled[1::2]
+
+
+LOSSES = {"paper": paper_loss, "ghost": ghost_loss}

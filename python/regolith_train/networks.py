@@ -1,0 +1,180 @@
+# SPDX-FileCopyrightText: 2026 The Regolith authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The three feature networks: an encoder to 1/8 resolution, a detector head and a descriptor head.
+
+Every network maps a grey image, batch × 1 × height × width with sides divisible by 8 and values
+(grey / 255 - mean) / scale, to
+
+  logits       batch × 65 × height/8 × width/8: the 64 pixels of each 8 × 8 cell, row by row, then "no keypoint here"
+  descriptors  batch × dimension × height/8 × width/8, unit length along the second axis; the one of cell (i, j) belongs
+               to the cell's centre, pixel (8 j + 3.5, 8 i + 3.5)
+
+Sources: SuperPoint (DeTone et al. 2018, the two heads); GhostNet (Han et al. 2020: the Ghost module, the bottleneck, its table
+of layers); SqueezeNet-and-excitation (Hu et al. 2018).
+"""
+
+import torch
+from torch import nn
+from torch.nn import functional
+
+CELL = 8
+
+
+def divisible(channels, divisor=4):
+    """Channels rounded to a multiple of `divisor`, never down by more than a tenth, as GhostNet scales its widths."""
+    rounded = max(divisor, int(channels + divisor / 2) // divisor * divisor)
+    return rounded + divisor if rounded < 0.9 * channels else rounded
+
+
+def convolution(inputs, outputs, size=3, stride=1, groups=1, activate=True):
+    layers = [
+        nn.Conv2d(inputs, outputs, size, stride, size // 2, groups=groups, bias=False),
+        nn.BatchNorm2d(outputs),
+    ]
+    if activate:
+        layers.append(nn.ReLU(inplace=True))
+    return nn.Sequential(*layers)
+
+
+class GhostModule(nn.Module):
+    """Half of the channels by a 1 × 1 convolution, the other half from those by a cheap depthwise one."""
+
+    def __init__(self, inputs, outputs, activate=True):
+        super().__init__()
+        primary = (outputs + 1) // 2
+        self.outputs = outputs
+        self.primary = convolution(inputs, primary, size=1, activate=activate)
+        self.cheap = convolution(primary, primary, size=3, groups=primary, activate=activate)
+
+    def forward(self, features):
+        primary = self.primary(features)
+        return torch.cat([primary, self.cheap(primary)], dim=1)[:, : self.outputs]
+
+
+class SqueezeExcitation(nn.Module):
+    """Weights channels by what the whole image holds."""
+
+    def __init__(self, channels):
+        super().__init__()
+        squeezed = divisible(channels / 4)
+        self.reduce = nn.Conv2d(channels, squeezed, 1)
+        self.expand = nn.Conv2d(squeezed, channels, 1)
+
+    def forward(self, features):
+        weights = functional.relu(self.reduce(features.mean((2, 3), keepdim=True)))
+        return features * functional.relu6(self.expand(weights) + 3.0) / 6.0
+
+
+class GhostBottleneck(nn.Module):
+    """Expansion and compression by Ghost modules, with a depthwise convolution between them where it strides."""
+
+    def __init__(self, inputs, expanded, outputs, stride=1, excite=False):
+        super().__init__()
+        layers = [GhostModule(inputs, expanded)]
+        if stride > 1:
+            layers.append(convolution(expanded, expanded, 3, stride, groups=expanded, activate=False))
+        if excite:
+            layers.append(SqueezeExcitation(expanded))
+        layers.append(GhostModule(expanded, outputs, activate=False))
+        self.main = nn.Sequential(*layers)
+        self.shortcut = nn.Identity()
+        if stride > 1 or inputs != outputs:
+            self.shortcut = nn.Sequential(
+                convolution(inputs, inputs, 3, stride, groups=inputs, activate=False),
+                convolution(inputs, outputs, 1, activate=False),
+            )
+
+    def forward(self, features):
+        return self.main(features) + self.shortcut(features)
+
+
+class Heads(nn.Module):
+    """SuperPoint's: a 3 × 3 and a 1 × 1 convolution each."""
+
+    def __init__(self, inputs, dimension, width=256):
+        super().__init__()
+        self.detector = nn.Sequential(convolution(inputs, width), nn.Conv2d(width, CELL * CELL + 1, 1))
+        self.descriptor = nn.Sequential(convolution(inputs, width), nn.Conv2d(width, dimension, 1))
+
+    def forward(self, features):
+        return self.detector(features), functional.normalize(self.descriptor(features), dim=1)
+
+
+class SuperPoint(nn.Module):
+    """SuperPoint's VGG encoder: 64-64-64-64-128-128-128-128 with three poolings."""
+
+    dimension = 256
+
+    def __init__(self):
+        super().__init__()
+        widths = [64, 64, 64, 64, 128, 128, 128, 128]
+        layers, inputs = [], 1
+        for index, outputs in enumerate(widths):
+            layers.append(convolution(inputs, outputs))
+            if index in (1, 3, 5):
+                layers.append(nn.MaxPool2d(2))
+            inputs = outputs
+        self.encoder = nn.Sequential(*layers)
+        self.heads = Heads(inputs, self.dimension)
+
+    def forward(self, image):
+        return self.heads(self.encoder(image))
+
+
+class GhostPaper(nn.Module):
+    """The paper's encoder: GhostNet's first convolution and six bottlenecks, width × 1.2, the heads of SuperPoint."""
+
+    dimension = 256
+    # expanded, outputs, stride, squeeze-and-excitation
+    BOTTLENECKS = [(16, 16, 1, False), (48, 24, 2, False), (72, 24, 1, False),
+                   (72, 40, 2, True), (120, 40, 1, True), (240, 80, 1, False)]  # fmt: skip
+
+    def __init__(self, width=1.2):
+        super().__init__()
+        inputs = divisible(16 * width)
+        layers = [convolution(1, inputs, stride=2)]
+        for expanded, outputs, stride, excite in self.BOTTLENECKS:
+            expanded, outputs = divisible(expanded * width), divisible(outputs * width)
+            layers.append(GhostBottleneck(inputs, expanded, outputs, stride, excite))
+            inputs = outputs
+        self.encoder = nn.Sequential(*layers)
+        self.heads = Heads(inputs, self.dimension)
+
+    def forward(self, image):
+        return self.heads(self.encoder(image))
+
+
+class Ghost(nn.Module):
+    """Ours: the paper's idea made slim. Where the time of `GhostPaper` goes (its first layers at 1/2 resolution, heads 256 wide)
+    plain strided convolutions of few channels stand instead; Ghost bottlenecks do the work at 1/8. The detector also sees the
+    features at 1/2 and 1/4, folded into its cells: they know where in the cell a corner is.
+    """
+
+    dimension = 128
+
+    def __init__(self, half=12, quarter=24, eighth=64, depth=4, width=64):
+        super().__init__()
+        self.stem = convolution(1, half, stride=2)
+        self.middle = nn.Sequential(convolution(half, quarter, stride=2), GhostBottleneck(quarter, 2 * quarter, quarter))
+        self.deep = nn.Sequential(convolution(quarter, eighth, stride=2),
+                                    *[GhostBottleneck(eighth, 2 * eighth, eighth) for _ in range(depth)])  # fmt: skip
+        self.fold_half = fold(half, 32, 4)
+        self.fold_quarter = fold(quarter, 48, 2)
+        self.detector = nn.Sequential(convolution(eighth + 80, width, 1), convolution(width, width),
+                                      nn.Conv2d(width, CELL * CELL + 1, 1))  # fmt: skip
+        self.descriptor = nn.Sequential(convolution(eighth, width), nn.Conv2d(width, self.dimension, 1))
+
+    def forward(self, image):
+        half = self.stem(image)
+        quarter = self.middle(half)
+        eighth = self.deep(quarter)
+        located = torch.cat([eighth, self.fold_half(half), self.fold_quarter(quarter)], dim=1)
+        return self.detector(located), functional.normalize(self.descriptor(eighth), dim=1)
+
+
+def fold(inputs, outputs, step):
+    """A convolution that takes blocks of step × step apart: 1/step of the resolution."""
+    return nn.Sequential(nn.Conv2d(inputs, outputs, step, step, bias=False), nn.BatchNorm2d(outputs), nn.ReLU(inplace=True))
+
+
+NETWORKS = {"ghost": Ghost, "ghost_paper": GhostPaper, "superpoint": SuperPoint}

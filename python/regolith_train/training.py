@@ -1,0 +1,140 @@
+# SPDX-FileCopyrightText: 2026 The Regolith authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The training loop: resumes from its last checkpoint, writes its curve as CSV."""
+
+import csv
+import dataclasses
+import json
+import math
+import os
+import pathlib
+import time
+
+import torch
+from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
+from torch.utils.data import DataLoader
+
+from regolith_train.data import Mixture, SimulatedPairs, SingleImages, validation
+from regolith_train.losses import LOSSES
+from regolith_train.networks import NETWORKS
+
+
+@dataclasses.dataclass
+class TrainingOptions:
+    network: str = "ghost"  # a key of NETWORKS
+    loss: str = "ghost"  # a key of LOSSES
+    steps: int = 10000
+    batch: int = 8  # samples (pairs of views) a step
+    rate: float = 2e-3
+    schedule: str = "cosine"  # or "constant", the paper's
+    warm_up: int = 200  # steps
+    weight_decay: float = 1e-4
+    full_rotation_share: float = 0.45  # of the homographies that turn by up to 180 degrees
+    pairs_share: float = 0.3  # of the samples that come from the simulator
+    average_decay: float = 0.995  # a step, of the averaged weights
+    seed: int = 1
+    threads: int = 2
+    workers: int = 1
+    bf16: bool = True
+    checkpoint_every: int = 250
+
+
+def cache_folder():
+    root = os.environ.get("REGOLITH_CACHE") or os.path.expanduser("~/.cache/regolith")
+    return pathlib.Path(root) / "training"
+
+
+def learning_rate(options, step):
+    """Factor of the rate at a step: linear warm-up, then constant or half a cosine down to a hundredth."""
+    if step < options.warm_up:
+        return (step + 1) / options.warm_up
+    if options.schedule == "constant":
+        return 1.0
+    progress = (step - options.warm_up) / max(1, options.steps - options.warm_up)
+    return 0.01 + 0.99 * 0.5 * (1 + math.cos(math.pi * min(progress, 1.0)))
+
+
+class Run:
+    """Network, optimiser and step of one training run, and the folder that they are kept in."""
+
+    def __init__(self, options, folder):
+        self.options = options
+        self.folder = pathlib.Path(folder)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        torch.manual_seed(options.seed)
+        self.network = NETWORKS[options.network]().to(memory_format=torch.channels_last)
+        self.optimiser = torch.optim.AdamW(self.network.parameters(), lr=options.rate, weight_decay=options.weight_decay)
+        # The mean of the weights over the last few hundred steps is better than any of them, and good at any time of the schedule.
+        self.average = AveragedModel(self.network, multi_avg_fn=get_ema_multi_avg_fn(options.average_decay), use_buffers=True)
+        self.step = 0
+        if self.checkpoint.exists():
+            self.load(self.checkpoint)
+
+    @property
+    def checkpoint(self):
+        return self.folder / "checkpoint.pt"
+
+    def load(self, path):
+        state = torch.load(path, map_location="cpu", weights_only=True)
+        if state["network_name"] != self.options.network:
+            raise SystemExit(f"{path}: holds {state['network_name']}, not {self.options.network}; name another --name")
+        self.network.load_state_dict(state["network"])
+        self.optimiser.load_state_dict(state["optimiser"])
+        self.average.load_state_dict(state["averaged"])
+        self.step = state["step"]
+
+    def save(self):
+        partial = self.folder / "checkpoint.partial.pt"
+        torch.save({"network_name": self.options.network, "network": self.network.state_dict(),
+                    "average": self.average.module.state_dict(), "averaged": self.average.state_dict(),
+                    "optimiser": self.optimiser.state_dict(), "step": self.step,
+                    "options": dataclasses.asdict(self.options)}, partial)  # fmt: skip
+        partial.replace(self.checkpoint)
+
+    def advance(self, sample):
+        for group in self.optimiser.param_groups:
+            group["lr"] = self.options.rate * learning_rate(self.options, self.step)
+        with torch.autocast("cpu", torch.bfloat16, enabled=self.options.bf16):
+            terms = LOSSES[self.options.loss](self.network, sample)
+        self.optimiser.zero_grad(set_to_none=True)
+        terms["loss"].backward()
+        torch.nn.utils.clip_grad_norm_(self.network.parameters(), 5.0)
+        self.optimiser.step()
+        self.average.update_parameters(self.network)
+        self.step += 1
+        return {name: float(value.detach()) for name, value in terms.items()}
+
+
+def datasets(options, images, pairs, labels):
+    single = SingleImages([path for path in images if not validation(path)], labels)
+    single.limits.full_rotation_share = options.full_rotation_share
+    return Mixture([single, SimulatedPairs(pairs, labels)], [1 - options.pairs_share, options.pairs_share],
+                   length=options.steps * options.batch, seed=options.seed)  # fmt: skip
+
+
+def train(options, images, pairs, labels, folder, progress=print):
+    """Trains to options.steps; what was reached is in `folder`, also where it was stopped."""
+    torch.set_num_threads(options.threads)
+    run = Run(options, folder)
+    (run.folder / "options.json").write_text(json.dumps(dataclasses.asdict(options), indent=2) + "\n")
+    mixture = datasets(options, images, pairs, labels)
+    mixture.start = run.step * options.batch
+    loader = DataLoader(mixture, batch_size=options.batch, num_workers=options.workers, drop_last=True)
+    started, first = time.monotonic(), run.step
+    run.network.train()
+    with open(run.folder / "curve.csv", "a", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        for sample in loader:
+            terms = run.advance(sample)
+            if run.step % 10 == 0:
+                writer.writerow([run.step, *(f"{terms[name]:.5f}" for name in sorted(terms))])
+                file.flush()
+            if run.step % 50 == 0:
+                pace = (time.monotonic() - started) / (run.step - first)
+                left = pace * (options.steps - run.step) / 60
+                progress(f"step {run.step}/{options.steps}  " + "  ".join(f"{n} {v:.3f}" for n, v in terms.items())
+                         + f"  {pace:.2f} s a step, {left:.0f} min left")  # fmt: skip
+            if run.step % options.checkpoint_every == 0:
+                run.save()
+    run.save()
+    return run

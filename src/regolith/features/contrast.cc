@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/features/contrast.h"
+
+#include <algorithm>
+#include <array>
+
+namespace regolith {
+namespace {
+
+constexpr double kMostGain = 4.0;
+constexpr double kOutliers = 0.001;  // share of the pixels at each end that do not count
+
+}  // namespace
+
+double ContrastStretch::Apply(double value) const {
+  return std::clamp((value - low) * gain, 0.0, 1.0);
+}
+
+ContrastStretch StretchFor(const Image& image) {
+  ContrastStretch stretch;
+  if (image.data.empty()) return stretch;
+  std::array<size_t, 256> histogram{};
+  for (const uint8_t grey : image.data) ++histogram[grey];
+  const auto ignored = static_cast<size_t>(kOutliers * static_cast<double>(image.data.size()));
+  int darkest = 0;
+  int brightest = 255;
+  for (size_t count = histogram[0]; darkest < 255 && count <= ignored;) {
+    count += histogram[static_cast<size_t>(++darkest)];
+  }
+  for (size_t count = histogram[255]; brightest > 0 && count <= ignored;) {
+    count += histogram[static_cast<size_t>(--brightest)];
+  }
+  if (brightest <= darkest) return stretch;
+  stretch.gain = std::min(255.0 / (brightest - darkest), kMostGain);
+  // With the gain at its bound the middle of the range stays where a wider stretch would put it.
+  stretch.low = darkest / 255.0;
+  return stretch;
+}
+
+}  // namespace regolith
