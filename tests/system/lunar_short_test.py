@@ -40,7 +40,12 @@ class LunarShort(ProgramTest):
         self.assertEqual(len(read_tum(out / "odometry.tum")), 400)
         with (out / "status.csv").open() as table:
             rows = list(csv.DictReader(table))
+        images = [row for row in rows if row["leader"] == "camera"]
+        rows = [row for row in rows if row["leader"] != "camera"]
         self.assertEqual(len(rows), 400)
+        self.assertEqual(len(images), summary["frames"])
+        self.assertGreater(len(images), 390)
+        self.assertGreater(min(int(row["tracked_features"]) for row in images[1:]), 50)
         self.assertEqual(rows[-1]["leader"], "lidar+imu")
         self.assertEqual(rows[20]["at_rest"], "1")
         for name, least in (("map.ply", 100_000), ("timing.csv", 1000), ("config.yaml", 500), ("report.html", 100_000)):

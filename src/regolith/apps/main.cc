@@ -129,6 +129,10 @@ void AddRun(CLI::App& program, std::map<CLI::App*, Command>& commands) {
   app->add_option("--pipeline", arguments->pipeline, "Name (config/pipelines) or YAML file")
       ->type_name("NAME")
       ->capture_default_str();
+  app->add_option(
+         "--features", arguments->features,
+         "Instead of the pipeline's: ghost, ghost_paper, ghost_lk, superpoint, orb or st_lk")
+      ->type_name("NAME");
   app->add_option("--rate", arguments->rate,
                   "1 feeds the recording at its own pace; 0 as fast as it goes")
       ->type_name("X");

@@ -4,6 +4,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -13,6 +14,7 @@
 #include "regolith/apps/output_folder.h"
 #include "regolith/apps/progress.h"
 #include "regolith/apps/run_outputs.h"
+#include "regolith/apps/run_report.h"
 #include "regolith/apps/run_setup.h"
 #include "regolith/core/log.h"
 #include "regolith/core/stop.h"
@@ -102,20 +104,28 @@ std::string UnusedSensors(const RunSetup& setup, const SensorNeeds& needs) {
   std::string unused;
   const auto add = [&](const std::string& name) { unused += (unused.empty() ? "" : ", ") + name; };
   if (setup.rig.imu && !needs.imu) add("imu");
-  for (const auto& [name, camera] : setup.rig.cameras) add("camera " + name);
+  for (const auto& [name, camera] : setup.rig.cameras) {
+    const auto& used = needs.cameras;
+    if (std::find(used.begin(), used.end(), name) == used.end()) add("camera " + name);
+  }
   if (setup.rig.wheels) add("wheels");
   if (unused.empty()) return "";
   return "pipeline " + setup.pipeline.name + " does not use: " + unused;
 }
 
-void PrintResult(const RunArguments& arguments, const SlamSystem& system, const RunRecord& record,
-                 const std::optional<Evaluation>& evaluation) {
+void PrintResult(const RunArguments& arguments, const RunSetup& setup, const SlamSystem& system,
+                 const RunRecord& record, const std::optional<Evaluation>& evaluation) {
   std::printf("poses             %zu of %zu scans\n", system.trajectory().size(),
               system.scans_seen());
   std::printf("distance          %.2f m\n", system.trajectory().Length());
   if (evaluation) {
     std::printf("APE RMSE          %.3f m (%.2f %% of the distance)\n", evaluation->ape.rmse,
                 evaluation->percent_of_distance.value_or(0.0));
+  }
+  if (system.images_seen() > 0) {
+    std::printf("images            %zu, %.0f features tracked in the median (%s)\n",
+                system.images_seen(), MedianTracked(record.frames),
+                setup.pipeline.features.frontend.c_str());
   }
   std::printf("real-time factor  %.1f\n",
               record.wall_seconds > 0.0 ? record.recording_seconds / record.wall_seconds : 0.0);
@@ -128,10 +138,11 @@ void PrintResult(const RunArguments& arguments, const SlamSystem& system, const 
 int Run(const RunArguments& arguments) {
   const RunSetup setup = PrepareRun(arguments);
   ThreadPool threads(arguments.threads);
-  SlamSystem system(setup.pipeline, setup.rig, &threads);
+  SlamSystem system(setup.pipeline, setup.rig, &threads, setup.camera_mask);
   ReadOptions read;
   read.imu = system.needs().imu;
   read.lidar = system.needs().lidar;
+  read.cameras = system.needs().cameras;
   read.cuts = setup.cuts;
   const auto source = OpenRecording(setup.identity, setup.rig, read);
   PrepareOutputFolder(arguments.out, arguments.overwrite);
@@ -147,7 +158,7 @@ int Run(const RunArguments& arguments) {
     WriteRunOutputs(arguments.out, setup, system, record, evaluation);
   }
   if (failure) std::rethrow_exception(failure);
-  PrintResult(arguments, system, record, evaluation);
+  PrintResult(arguments, setup, system, record, evaluation);
   if (!record.complete)
     LogWarning("interrupted: the results so far are in files named *.partial.*");
   return record.complete ? 0 : kInterrupted;

@@ -13,6 +13,7 @@ struct RunArguments {
   std::string pipeline = "regolith";
   double rate = 0.0;               ///< 1: at the recording's own pace; 0: as fast as it goes
   std::vector<std::string> drops;  ///< TOPIC:START:END, s from the recording's start
+  std::string features;            ///< frontend instead of the pipeline's; empty: that one
   std::string frame;               ///< imu, lidar, camera, base; empty: the body
   std::string config;
   std::vector<std::string> set;

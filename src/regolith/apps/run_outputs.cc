@@ -54,21 +54,39 @@ std::string TimingTable(const std::vector<FrameReport>& frames) {
   return text;
 }
 
+std::string ScanCells(const FrameReport& frame) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof buffer, ",%d,0,%d,%d,%.1f,%.5f,%d", frame.at_rest ? 1 : 0,
+                frame.points, frame.matches, frame.inliers, frame.residual_scale,
+                frame.degenerate_directions);
+  std::string text = buffer;
+  for (int i = 0; i < 6; ++i) {
+    std::snprintf(buffer, sizeof buffer, ",%.3e", std::sqrt(frame.covariance(i, i)));
+    text += buffer;
+  }
+  return text + std::string(11, ',');
+}
+
+std::string ImageCells(const FrontendStatus& status) {
+  const DetectionStatus& detection = status.detection;
+  char buffer[240];
+  std::snprintf(buffer, sizeof buffer, ",,%d,,,,,,,,,,,,%d,%d,%d,%d,%.2f,%d,%d,%d,%.6g,%.6g,%.6g",
+                status.tracked, status.detected, status.recovered, status.rejected, status.started,
+                status.mean_age, detection.cells, detection.cells_filled, detection.rounds,
+                detection.threshold_min, detection.threshold_median, detection.threshold_max);
+  return buffer;
+}
+
 std::string StatusTable(const std::vector<FrameReport>& frames) {
   std::string text =
       "time_s,leader,at_rest,tracked_features,points,matches,inliers,residual_scale_m,"
       "degenerate_directions,sigma_roll_rad,sigma_pitch_rad,sigma_yaw_rad,sigma_x_m,sigma_y_m,"
-      "sigma_z_m\n";
+      "sigma_z_m,detected_features,recovered_features,rejected_features,new_features,mean_age,"
+      "cells,"
+      "cells_filled,threshold_rounds,threshold_min,threshold_median,threshold_max\n";
   for (const FrameReport& frame : frames) {
-    char buffer[160];
-    std::snprintf(buffer, sizeof buffer, ",%d,0,%d,%d,%.1f,%.5f,%d", frame.at_rest ? 1 : 0,
-                  frame.points, frame.matches, frame.inliers, frame.residual_scale,
-                  frame.degenerate_directions);
-    text += SecondsText(frame.stamp) + "," + frame.leader + buffer;
-    for (int i = 0; i < 6; ++i) {
-      std::snprintf(buffer, sizeof buffer, ",%.3e", std::sqrt(frame.covariance(i, i)));
-      text += buffer;
-    }
+    text += SecondsText(frame.stamp) + "," + frame.leader;
+    text += frame.source == FrameSource::kScan ? ScanCells(frame) : ImageCells(frame.features);
     text += "\n";
   }
   return text;
@@ -95,7 +113,7 @@ nlohmann::ordered_json SummaryOf(const RunSetup& setup, const SlamSystem& system
       record.wall_seconds > 0.0 ? record.recording_seconds / record.wall_seconds : 0.0;
   summary["cpu_seconds"] = record.cpu_seconds;
   summary["peak_rss_mb"] = record.peak_rss_mb;
-  summary["frames"] = 0;
+  summary["frames"] = system.images_seen();
   summary["scans"] = system.scans_seen();
   summary["keyframes"] = 0;
   summary["loops_accepted"] = 0;
@@ -137,7 +155,8 @@ std::string ResolvedConfiguration(const RunSetup& setup) {
 
 std::vector<StageSummary> SummariseStages(const std::vector<FrameReport>& frames) {
   std::vector<std::pair<std::string, std::vector<double>>> stages;
-  std::vector<double> totals;
+  std::vector<double> scan_totals;
+  std::vector<double> image_totals;
   for (const FrameReport& frame : frames) {
     double total = 0.0;
     for (const StageTime& stage : frame.stages) {
@@ -147,15 +166,24 @@ std::vector<StageSummary> SummariseStages(const std::vector<FrameReport>& frames
       found->second.push_back(stage.milliseconds);
       total += stage.milliseconds;
     }
-    totals.push_back(total);
+    (frame.source == FrameSource::kScan ? scan_totals : image_totals).push_back(total);
   }
-  stages.emplace_back("total", totals);
+  stages.emplace_back("total", scan_totals);
+  if (!image_totals.empty()) stages.emplace_back("image_total", image_totals);
   std::vector<StageSummary> summaries;
   summaries.reserve(stages.size());
   for (const auto& [name, values] : stages) {
     summaries.push_back({name, Quantile(values, 0.5), Quantile(values, 0.99)});
   }
   return summaries;
+}
+
+double MedianTracked(const std::vector<FrameReport>& frames) {
+  std::vector<double> tracked;
+  for (const FrameReport& frame : frames) {
+    if (frame.source == FrameSource::kImage) tracked.push_back(frame.features.tracked);
+  }
+  return Quantile(tracked, 0.5);
 }
 
 std::optional<Evaluation> EvaluateAgainstTruth(const RunSetup& setup, const SlamSystem& system) {

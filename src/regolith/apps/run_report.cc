@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/apps/run_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -14,20 +15,19 @@ std::string Text(const char* format, double value) {
   return buffer;
 }
 
-std::vector<double> SecondsFromStart(const std::vector<FrameReport>& frames) {
-  std::vector<double> seconds;
-  seconds.reserve(frames.size());
-  for (const FrameReport& frame : frames) {
-    seconds.push_back(SecondsBetween(frames.front().stamp, frame.stamp));
-  }
-  return seconds;
-}
-
+/// A value of the scans or of the images over the time from the first frame of either.
 template <typename Value>
-ReportSeries SeriesOf(const std::string& name, const std::vector<FrameReport>& frames,
-                      Value value) {
-  ReportSeries series{name, SecondsFromStart(frames), {}};
-  for (const FrameReport& frame : frames) series.values.push_back(value(frame));
+ReportSeries SeriesOf(const std::string& name, FrameSource source,
+                      const std::vector<FrameReport>& frames, Value value) {
+  ReportSeries series{name, {}, {}};
+  if (frames.empty()) return series;
+  const auto first = std::min_element(
+      frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+  for (const FrameReport& frame : frames) {
+    if (frame.source != source) continue;
+    series.seconds.push_back(SecondsBetween(first->stamp, frame.stamp));
+    series.values.push_back(value(frame));
+  }
   return series;
 }
 
@@ -61,6 +61,22 @@ void AddMap(const SlamSystem& system, ReportData* data) {
   data->map_total = points.size();
 }
 
+void AddStatus(const std::vector<FrameReport>& frames, ReportData* data) {
+  if (frames.empty()) return;
+  const auto scans = FrameSource::kScan;
+  data->frame_ms = SeriesOf("time a scan, ms", scans, frames, TotalMilliseconds);
+  data->status = {SeriesOf("matched points", scans, frames,
+                           [](const FrameReport& frame) { return frame.matches; }),
+                  SeriesOf("degenerate directions", scans, frames,
+                           [](const FrameReport& frame) { return frame.degenerate_directions; }),
+                  SeriesOf("σ of the position, m", scans, frames, [](const FrameReport& frame) {
+                    return std::sqrt(frame.covariance.bottomRightCorner<3, 3>().trace());
+                  })};
+  ReportSeries tracked = SeriesOf("tracked features", FrameSource::kImage, frames,
+                                  [](const FrameReport& frame) { return frame.features.tracked; });
+  if (!tracked.values.empty()) data->status.push_back(std::move(tracked));
+}
+
 }  // namespace
 
 ReportData ReportOf(const RunSetup& setup, const SlamSystem& system, const RunRecord& record,
@@ -80,6 +96,7 @@ ReportData ReportOf(const RunSetup& setup, const SlamSystem& system, const RunRe
                   {"recording", Text("%.1f s", record.recording_seconds)},
                   {"scans", std::to_string(system.scans_seen())},
                   {"poses", std::to_string(system.trajectory().size())},
+                  {"images tracked", std::to_string(system.images_seen())},
                   {"wall time", Text("%.1f s", record.wall_seconds)},
                   {"processor time", Text("%.1f s", record.cpu_seconds)},
                   {"peak memory", Text("%.0f MB", record.peak_rss_mb)},
@@ -90,16 +107,7 @@ ReportData ReportOf(const RunSetup& setup, const SlamSystem& system, const RunRe
   for (const StageSummary& stage : SummariseStages(record.frames)) {
     data.stages.push_back({stage.name, stage.median_ms, stage.p99_ms});
   }
-  if (!record.frames.empty()) {
-    data.frame_ms = SeriesOf("time a scan, ms", record.frames, TotalMilliseconds);
-    data.status = {SeriesOf("matched points", record.frames,
-                            [](const FrameReport& frame) { return frame.matches; }),
-                   SeriesOf("degenerate directions", record.frames,
-                            [](const FrameReport& frame) { return frame.degenerate_directions; }),
-                   SeriesOf("σ of the position, m", record.frames, [](const FrameReport& frame) {
-                     return std::sqrt(frame.covariance.bottomRightCorner<3, 3>().trace());
-                   })};
-  }
+  AddStatus(record.frames, &data);
   return data;
 }
 

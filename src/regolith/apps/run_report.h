@@ -17,8 +17,12 @@ struct StageSummary {
   double p99_ms = 0.0;
 };
 
-/// Median and 99th percentile of each stage over the frames, and of their total.
+/// Median and 99th percentile of each stage over the frames that have it, of "total" over the
+/// scans, and of "image_total" over the images, where there are any.
 std::vector<StageSummary> SummariseStages(const std::vector<FrameReport>& frames);
+
+/// Tracks of the frame before that were found, median over the images; 0 without images.
+double MedianTracked(const std::vector<FrameReport>& frames);
 
 /// The text of config.yaml.
 std::string ResolvedConfiguration(const RunSetup& setup);

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "regolith/apps/feature_setup.h"
 #include "regolith/apps/install_paths.h"
 #include "regolith/config/pipeline_config.h"
 #include "regolith/config/rig_config.h"
 #include "regolith/core/check.h"
 #include "regolith/core/error.h"
+#include "regolith/io/image_file.h"
+#include "regolith/system/slam_system.h"
 
 namespace regolith {
 namespace {
@@ -18,7 +21,33 @@ PipelineOptions ResolvePipeline(const RunArguments& arguments) {
   YamlDocument document = YamlDocument::FromFile(FindConfig("pipelines", arguments.pipeline));
   if (!arguments.config.empty()) document.Overlay(YamlDocument::FromFile(arguments.config));
   for (const std::string& assignment : arguments.set) document.Set(assignment);
+  if (!arguments.features.empty()) document.Set("features.frontend=" + arguments.features);
   return LoadPipeline(document);
+}
+
+/// The model and the mask of the camera whose images are tracked, if any are.
+void PrepareTracking(const RunArguments& arguments, RunSetup* setup) {
+  PipelineOptions& pipeline = setup->pipeline;
+  if (!TracksImages(pipeline, setup->rig)) {
+    if (arguments.features.empty()) return;
+    throw InputError("--features " + arguments.features,
+                     pipeline.tracked_camera.empty()
+                         ? "pipeline " + pipeline.name +
+                               " tracks no images; name a camera by --set tracked_camera=NAME"
+                         : "the rig has no camera `" + pipeline.tracked_camera +
+                               "`; name one by --set tracked_camera=NAME");
+  }
+  pipeline.feature_model = PrepareModel(&pipeline.features);
+  const CameraCalibration& camera = setup->rig.cameras.at(pipeline.tracked_camera);
+  if (camera.mask_file.empty()) return;
+  setup->camera_mask = ReadImage(camera.mask_file);
+  const Image& mask = *setup->camera_mask;
+  const CameraIntrinsics& intrinsics = camera.intrinsics;
+  if (mask.width == intrinsics.width && mask.height == intrinsics.height) return;
+  throw InputError(camera.mask_file,
+                   Concatenate("is ", mask.width, " × ", mask.height, ", but camera ",
+                               pipeline.tracked_camera, " is ", intrinsics.width, " × ",
+                               intrinsics.height, "; expected a mask as large as its images"));
 }
 
 double ParseSeconds(const std::string& text, const std::string& drop) {
@@ -84,6 +113,7 @@ RunSetup PrepareRun(const RunArguments& arguments) {
   setup.identity = IdentifyRecording(arguments.recording);
   setup.pipeline = ResolvePipeline(arguments);
   setup.rig = FindRig(setup.identity, arguments.rig, &setup.rig_source);
+  PrepareTracking(arguments, &setup);
   for (const std::string& drop : arguments.drops) setup.cuts.push_back(ParseDrop(drop));
   const bool kitti = setup.identity.format == RecordingFormat::kKittiRaw ||
                      setup.identity.format == RecordingFormat::kKittiOdometry;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "regolith/apps/run.h"
 #include "regolith/io/recording.h"
 #include "regolith/sensor/rig_calibration.h"
@@ -15,6 +17,7 @@ struct RunSetup {
   RigCalibration rig;
   std::string rig_source;  ///< the file it came from
   PipelineOptions pipeline;
+  std::optional<Image> camera_mask;  ///< of the tracked camera, where the rig names one
   std::vector<TopicCut> cuts;
   std::string body;   ///< frame that the estimator follows: "imu", or "lidar" for KITTI
   std::string frame;  ///< frame that the trajectories are given in

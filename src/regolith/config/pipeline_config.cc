@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/config/pipeline_config.h"
 
+#include "regolith/config/features_fields_internal.h"
 #include "regolith/core/error.h"
 
 namespace regolith {
@@ -79,6 +80,8 @@ void Fields(Archive& archive, MapBuilderOptions& map) {
 template <typename Archive>
 void Fields(Archive& archive, PipelineOptions& options) {
   archive("pipeline", options.name);
+  archive("tracked_camera", options.tracked_camera);
+  archive("features", options.features);
   archive("lio", options.lio);
   archive("map", options.map);
 }
@@ -89,6 +92,7 @@ PipelineOptions LoadPipeline(const YamlDocument& document) {
   Fields(reader, options);
   reader.Finish();
   try {
+    options.features.Check();
     options.lio.Check();
     options.map.Check();
   } catch (const CheckError& error) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/config/rig_config.h"
 
+#include <filesystem>
+
 #include "regolith/core/error.h"
 
 namespace regolith {
@@ -71,6 +73,7 @@ void Fields(Archive& archive, CameraCalibration& camera) {
   archive("rate", camera.rate);
   archive("time_offset", camera.time_offset);
   archive("time_offset_sigma", camera.time_offset_sigma);
+  if (Archive::kReading || !camera.mask_file.empty()) archive("mask", camera.mask_file);
 }
 
 template <typename Archive>
@@ -88,6 +91,19 @@ void Fields(Archive& archive, RigCalibration& rig) {
   archive("wheels", rig.wheels);
 }
 
+namespace {
+
+/// Files that a rig names lie beside it; their paths are made to hold from anywhere, so that the
+/// rig may be written elsewhere.
+std::string BesideRig(const std::string& file, const std::string& rig_file) {
+  if (file.empty() || std::filesystem::path(file).is_absolute()) return file;
+  return std::filesystem::absolute(std::filesystem::path(rig_file).parent_path() / file)
+      .lexically_normal()
+      .string();
+}
+
+}  // namespace
+
 RigCalibration LoadRig(const YamlDocument& document) {
   RigCalibration rig;
   FieldReader reader(document);
@@ -97,6 +113,9 @@ RigCalibration LoadRig(const YamlDocument& document) {
     reader.Fail(
         "gravity",
         "is missing; a rig with an IMU needs it in m/s² (Moon 1.62, Mars 3.72, Earth 9.81)");
+  }
+  for (auto& [name, camera] : rig.cameras) {
+    camera.mask_file = BesideRig(camera.mask_file, document.name());
   }
   try {
     rig.Check();

@@ -50,6 +50,18 @@ TEST(RigConfig, WrittenRigReadsBackAsTheSame) {
   EXPECT_FALSE(rig.wheels.has_value());
 }
 
+TEST(RigConfig, MasksLieBesideTheRig) {
+  RigCalibration rig = Example();
+  EXPECT_EQ(WriteRig(rig).find("mask"), std::string::npos);
+  rig.cameras["mono"].mask_file = "masks/mono.png";
+  const RigCalibration read =
+      LoadRig(YamlDocument::FromText(WriteRig(rig), "/data/rover/rig.yaml"));
+  EXPECT_EQ(read.cameras.at("mono").mask_file, "/data/rover/masks/mono.png");
+  const RigCalibration copy =
+      LoadRig(YamlDocument::FromText(WriteRig(read), "/elsewhere/rig.yaml"));
+  EXPECT_EQ(copy.cameras.at("mono").mask_file, "/data/rover/masks/mono.png");
+}
+
 TEST(RigConfig, NamesFileAndKeyOfWrongValues) {
   EXPECT_THAT(ErrorOf("gravity: 0.165\nimu: {rate: 200}\n"),
               AllOf(HasSubstr("rig.yaml"), HasSubstr("gravity"), HasSubstr("m/s²")));

@@ -14,12 +14,6 @@ std::unique_ptr<FeatureExtractor> FeatureExtractor::Create(
   options.Check();
   if (options.frontend == "orb") return CreateOrbExtractor(options);
   if (options.frontend == "st_lk") return CreateShiTomasiExtractor(options);
-  if (options.frontend != "ghost" && options.frontend != "ghost_lk" &&
-      options.frontend != "ghost_paper" && options.frontend != "superpoint") {
-    throw InputError("features.frontend",
-                     "`" + options.frontend +
-                         "`; expected ghost, ghost_lk, ghost_paper, superpoint, orb or st_lk");
-  }
   if (!manifest) {
     throw InputError("features.frontend",
                      "`" + options.frontend + "` is a network, but no model was given");

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "regolith/core/check.h"
 #include "regolith/core/error.h"
 #include "regolith/features/descriptor_matcher.h"
 #include "regolith/features/keypoint_grid.h"
@@ -195,7 +196,7 @@ TEST(OrbExtractor, LowersItsThresholdInDimCells) {
 TEST(FeatureExtractor, RefusesUnknownNamesAndNetworksWithoutModel) {
   FeatureOptions options;
   options.frontend = "sift";
-  EXPECT_THROW(FeatureExtractor::Create(options, std::nullopt), InputError);
+  EXPECT_THROW(FeatureExtractor::Create(options, std::nullopt), CheckError);
   options.frontend = "ghost";
   EXPECT_THROW(FeatureExtractor::Create(options, std::nullopt), InputError);
 }

@@ -358,7 +358,7 @@ TEST(MatchingFrontend, ForgetsWhatWasLostForLong) {
 }
 
 TEST(FeatureFrontend, NamesWhatItCannotMake) {
-  EXPECT_THROW(FeatureFrontend::Create(OptionsOf("sift"), nullptr, std::nullopt), InputError);
+  EXPECT_THROW(FeatureFrontend::Create(OptionsOf("sift"), nullptr, std::nullopt), CheckError);
   EXPECT_THROW(FeatureFrontend::Create(OptionsOf("ghost_lk"), nullptr, std::nullopt), InputError);
 }
 

@@ -230,6 +230,7 @@ ScanEstimate LidarOdometry::EstimateInertial(const LidarScan& scan) {
   const SE3 corrected = filter_->state().T_world_imu;
   estimate.T_world_body = corrected * (predicted.Inverse() * PoseAt(motion, scan.stamp));
   estimate.covariance = filter_->PoseCovariance();
+  estimate.gyro_bias = filter_->state().gyro_bias;
   estimate.leader = estimate.match.used_scan ? "lidar+imu" : "imu";
   estimate.points = ExtendMap(scan, points_body, corrected);
   stopwatch.Lap("map");

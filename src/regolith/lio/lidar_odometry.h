@@ -28,6 +28,7 @@ struct ScanEstimate {
   Matrix6d covariance = Matrix6d::Zero();  ///< of the pose at the scan's end
   std::string leader;                      ///< "lidar+imu", "imu", "lidar", "guess"
   bool at_rest = false;
+  std::optional<Eigen::Vector3d> gyro_bias;  ///< rad/s; nothing without an IMU
   ScanMatch match;
   std::vector<MapPoint> points;  ///< world, all of the scan without motion distortion
   std::vector<StageTime> stages;

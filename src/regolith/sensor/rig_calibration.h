@@ -39,6 +39,8 @@ struct CameraCalibration {
   double time_offset = 0.0;        ///< s to add to its stamps to get the IMU's clock
   double time_offset_sigma = 0.0;  ///< s
   double rate = 10.0;              ///< Hz, nominal
+  /// Image (PNG) as large as the camera's, 0 where the rover sees its own parts; empty: none.
+  std::string mask_file;
 };
 
 struct WheelCalibration {

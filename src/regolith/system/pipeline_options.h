@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "regolith/features/feature_options.h"
+#include "regolith/features/model_manifest.h"
 #include "regolith/lio/lidar_odometry_options.h"
 #include "regolith/system/map_builder.h"
 
@@ -12,8 +15,13 @@ namespace regolith {
 /// One pipeline: which subsystems run, and how.
 struct PipelineOptions {
   std::string name;
+  std::string tracked_camera;  ///< name in the rig of the one whose images are tracked; empty: none
+  FeatureOptions features;
   LidarOdometryOptions lio;
   MapBuilderOptions map;
+
+  /// Of the network that `features` names, where it names one. No setting: the program finds it.
+  std::optional<ModelManifest> feature_model;
 };
 
 }  // namespace regolith

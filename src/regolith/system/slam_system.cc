@@ -13,6 +13,15 @@ const RigCalibration& WithLidar(const PipelineOptions& options, const RigCalibra
                    "needs a lidar, but the rig has none; add `lidar:` to the rig file");
 }
 
+SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
+  SensorNeeds needs;
+  const bool tracks = TracksImages(options, rig);
+  needs.imu = options.lio.imu && rig.imu.has_value();
+  needs.lidar = true;
+  if (tracks) needs.cameras.push_back(options.tracked_camera);
+  return needs;
+}
+
 FrameReport ReportOf(const ScanEstimate& estimate) {
   FrameReport report;
   report.stamp = estimate.stamp;
@@ -31,14 +40,29 @@ FrameReport ReportOf(const ScanEstimate& estimate) {
 
 }  // namespace
 
+bool TracksImages(const PipelineOptions& options, const RigCalibration& rig) {
+  return rig.cameras.count(options.tracked_camera) > 0;
+}
+
 SlamSystem::SlamSystem(const PipelineOptions& options, const RigCalibration& rig,
-                       ThreadPool* threads)
-    : needs_{options.lio.imu && rig.imu.has_value(), true},
+                       ThreadPool* threads, std::optional<Image> camera_mask)
+    : needs_(NeedsOf(options, rig)),
       lio_(options.lio, WithLidar(options, rig), threads),
-      map_(options.map) {}
+      map_(options.map) {
+  if (!needs_.cameras.empty()) {
+    tracker_ = std::make_unique<ImageTracker>(options, rig, std::move(camera_mask));
+  }
+}
 
 std::vector<FrameReport> SlamSystem::Process(const SensorEvent& event) {
-  if (const auto* sample = std::get_if<ImuSample>(&event)) return Report(lio_.AddImu(*sample));
+  if (const auto* sample = std::get_if<ImuSample>(&event)) {
+    if (tracker_) tracker_->AddImu(*sample);
+    return Report(lio_.AddImu(*sample));
+  }
+  if (const auto* frame = std::get_if<CameraFrame>(&event)) {
+    if (!tracker_ || frame->camera != tracker_->camera()) return {};
+    return {Track(*frame)};
+  }
   if (const auto* scan = std::get_if<LidarScan>(&event)) {
     ++scans_seen_;
     return Report(lio_.AddScan(*scan));
@@ -57,8 +81,21 @@ std::vector<FrameReport> SlamSystem::Report(std::vector<ScanEstimate> estimates)
     stopwatch.Lap("output_map");
     reports.push_back(ReportOf(estimate));
     for (const StageTime& stage : stopwatch.stages()) reports.back().stages.push_back(stage);
+    if (tracker_ && estimate.gyro_bias) tracker_->SetGyroBias(*estimate.gyro_bias);
   }
   return reports;
+}
+
+FrameReport SlamSystem::Track(const CameraFrame& frame) {
+  ++images_seen_;
+  TrackedFrame tracked = tracker_->Track(frame.time, frame.image);
+  FrameReport report;
+  report.source = FrameSource::kImage;
+  report.stamp = frame.time;
+  report.leader = "camera";
+  report.features = tracked.status;
+  report.stages = std::move(tracked.stages);
+  return report;
 }
 
 }  // namespace regolith

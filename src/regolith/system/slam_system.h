@@ -3,6 +3,8 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "regolith/lio/lidar_odometry.h"
 #include "regolith/sensor/rig_calibration.h"
 #include "regolith/sensor/sensor_event.h"
+#include "regolith/system/image_tracker.h"
 #include "regolith/system/map_builder.h"
 #include "regolith/system/pipeline_options.h"
 
@@ -20,13 +23,20 @@ namespace regolith {
 struct SensorNeeds {
   bool imu = false;
   bool lidar = false;
+  std::vector<std::string> cameras;  ///< names in the rig
 };
 
-/// What the system says of one frame; with a lidar a frame is a scan.
+enum class FrameSource { kScan, kImage };
+
+/// What the system says of one scan or image.
 struct FrameReport {
+  FrameSource source = FrameSource::kScan;
   TimeNs stamp = 0;
-  SE3 T_world_body;  ///< as known when the frame had been worked off
-  std::string leader;
+  std::vector<StageTime> stages;
+
+  // Of a scan.
+  SE3 T_world_body;    ///< as known when the frame had been worked off
+  std::string leader;  ///< of an image "camera"
   bool at_rest = false;
   int points = 0;
   int matches = 0;
@@ -34,17 +44,23 @@ struct FrameReport {
   double residual_scale = 0.0;  ///< m
   int degenerate_directions = 0;
   Matrix6d covariance = Matrix6d::Zero();  ///< [rotation (right, rad), position (m)]
-  std::vector<StageTime> stages;
+
+  FrontendStatus features;  ///< of an image
 };
+
+/// Whether a pipeline tracks images of this rig: it names a camera that is there.
+bool TracksImages(const PipelineOptions& options, const RigCalibration& rig);
 
 /// A whole pipeline: takes measurements in order of their stamps and makes a trajectory and a map
 /// of them. The same code serves recordings and live sensors, and it never waits for a clock.
 class SlamSystem {
  public:
-  /// Throws InputError where the rig lacks a sensor that the pipeline cannot do without.
-  SlamSystem(const PipelineOptions& options, const RigCalibration& rig, ThreadPool* threads);
+  /// Throws InputError where the rig lacks a sensor that the pipeline cannot do without. A camera
+  /// is none of those. `camera_mask` belongs to the tracked camera (ImageTracker).
+  SlamSystem(const PipelineOptions& options, const RigCalibration& rig, ThreadPool* threads,
+             std::optional<Image> camera_mask = std::nullopt);
 
-  SensorNeeds needs() const { return needs_; }
+  const SensorNeeds& needs() const { return needs_; }
 
   /// The frames that this measurement completed, mostly none.
   std::vector<FrameReport> Process(const SensorEvent& event);
@@ -58,16 +74,20 @@ class SlamSystem {
   const std::vector<MapPoint>& map_points() const { return map_.points(); }
 
   size_t scans_seen() const { return scans_seen_; }
+  size_t images_seen() const { return images_seen_; }
   std::vector<std::string> Notices() const { return lio_.Notices(); }
 
  private:
   std::vector<FrameReport> Report(std::vector<ScanEstimate> estimates);
+  FrameReport Track(const CameraFrame& frame);
 
   SensorNeeds needs_;
   LidarOdometry lio_;
+  std::unique_ptr<ImageTracker> tracker_;  ///< null where no images are tracked
   MapBuilder map_;
   Trajectory odometry_;
   size_t scans_seen_ = 0;
+  size_t images_seen_ = 0;
 };
 
 }  // namespace regolith

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "regolith/core/error.h"
+#include "regolith/core/random.h"
 
 namespace regolith {
 namespace {
@@ -44,6 +45,50 @@ TEST(SlamSystem, EveryScanGetsAPoseAndTheMapGrows) {
   EXPECT_EQ(system.trajectory().size(), 5U);
   EXPECT_EQ(system.scans_seen(), 5U);
   EXPECT_GT(system.map_points().size(), 5000U);
+}
+
+RigCalibration RigWithCamera() {
+  RigCalibration rig;
+  rig.lidar.emplace();
+  CameraCalibration& camera = rig.cameras["mono"];
+  camera.intrinsics.width = 160;
+  camera.intrinsics.height = 120;
+  camera.intrinsics.focal = {100.0, 100.0};
+  camera.intrinsics.principal_point = {79.5, 59.5};
+  return rig;
+}
+
+TEST(SlamSystem, TracksTheImagesOfTheCameraNamed) {
+  PipelineOptions options;
+  options.features.frontend = "st_lk";
+  ThreadPool threads(1);
+  EXPECT_TRUE(SlamSystem(options, RigWithCamera(), &threads).needs().cameras.empty());
+  options.tracked_camera = "left";
+  EXPECT_TRUE(SlamSystem(options, RigWithCamera(), &threads).needs().cameras.empty());
+  options.tracked_camera = "mono";
+  SlamSystem system(options, RigWithCamera(), &threads);
+  EXPECT_EQ(system.needs().cameras, std::vector<std::string>{"mono"});
+
+  CameraFrame frame;
+  frame.camera = "mono";
+  frame.image = {160, 120, std::vector<uint8_t>(160 * 120)};
+  for (size_t i = 0; i < frame.image.data.size(); ++i) {
+    frame.image.data[i] = static_cast<uint8_t>(200.0 * HashUniform(5, i / 160 / 9, i % 160 / 9));
+  }
+  for (int i = 0; i < 3; ++i) {
+    frame.time = FromSeconds(0.1 * i);
+    const auto reports = system.Process(frame);
+    ASSERT_EQ(reports.size(), 1U);
+    EXPECT_EQ(reports[0].source, FrameSource::kImage);
+    EXPECT_EQ(reports[0].leader, "camera");
+    EXPECT_EQ(reports[0].stamp, frame.time);
+    EXPECT_GT(i == 0 ? reports[0].features.started : reports[0].features.tracked, 30);
+    EXPECT_FALSE(reports[0].stages.empty());
+  }
+  frame.camera = "left";
+  EXPECT_TRUE(system.Process(frame).empty());
+  EXPECT_EQ(system.images_seen(), 3U);
+  EXPECT_TRUE(system.trajectory().poses().empty());
 }
 
 TEST(SlamSystem, ARigWithoutALidarIsRefused) {
