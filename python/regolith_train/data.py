@@ -11,6 +11,7 @@ import pathlib
 
 import numpy
 import torch
+from scipy.spatial import cKDTree
 from torch.utils.data import Dataset
 
 from regolith_train.homography import HomographyRange, random_homography, transform, warp_image
@@ -20,6 +21,7 @@ from regolith_train.photometry import augment
 HEIGHT, WIDTH = 240, 320
 POINTS = 192  # correspondences a sample
 LABELS = 512  # keypoint labels a view, at most
+SURE_SCORE = 0.4  # of the teacher
 
 
 @dataclasses.dataclass
@@ -27,6 +29,11 @@ class View:
     image: torch.Tensor  # 1 × HEIGHT × WIDTH, 0 to 1
     inside: torch.Tensor  # 1 × HEIGHT × WIDTH, where it shows the picture
     labels: torch.Tensor  # LABELS × 3: x, y, weight; weight 0 where there is none
+
+
+def sureness(scores):
+    """How much of a keypoint a label is: what the teacher is not sure of counts less, so that the order of scores is learnt."""
+    return numpy.clip(scores / SURE_SCORE, 0.0, 1.0)
 
 
 def validation(path):
@@ -108,7 +115,7 @@ class SingleImages(Dataset):
             pixels = label["pixels"] * [-1, 1] + [image.shape[1] - 1, 0]
         else:
             pixels = label["pixels"]
-        weights = numpy.ones(len(pixels))
+        weights = sureness(label["scores"])
         base = window(generator, image.shape[1], image.shape[0], (0.75, 1.25))
         other = random_homography(generator, WIDTH, HEIGHT, self.limits) @ base
         first = cut(image, base, pixels, weights, generator, self.photometric)
@@ -148,27 +155,27 @@ class SimulatedPairs(Dataset):
         labels = [numpy.load(label_path(self.labels, path)) for path in paths]
         pixels = [label["pixels"] for label in labels]
         moved = flow_at(load_flow(paths[0]), pixels[0])
-        weights = self.weights(pixels, moved)
+        confirmed, weights = self.weights(labels, moved)
         height, width = images[0].shape
         base = window(generator, width, height, (0.5, 1.0))
         target = self.follow(base, pixels[0], moved, generator)
         first = cut(images[0], base, pixels[0], weights[0], generator, self.photometric)
         second = cut(images[1], target, pixels[1], weights[1], generator, self.photometric)
         places = transform(base, pixels[0]), transform(target, moved)
-        chosen = numpy.flatnonzero(within(places[0]) & within(places[1]) & (weights[0] == 1))
+        chosen = numpy.flatnonzero(within(places[0]) & within(places[1]) & confirmed)
         places, rows = correspondences(*places, chosen, generator)
         return sample(first, second, places, rows, labels[0]["descriptors"])
 
-    def weights(self, pixels, moved):
-        """Labels seen from both sides are sure; so are those whose place in the other image is not known."""
-        first = numpy.ones(len(pixels[0]))
-        second = numpy.ones(len(pixels[1]))
+    def weights(self, labels, moved):
+        """Which labels of the first image have a counterpart in the second (or an unknown place there), and both images' weights."""
+        weights = [sureness(label["scores"]) for label in labels]
         known = numpy.isfinite(moved).all(axis=1)
-        if not known.any() or len(pixels[1]) == 0:
-            return first, second
-        distance = numpy.linalg.norm(moved[known, None] - pixels[1][None], axis=2)
-        first[known] = numpy.where(distance.min(axis=1) < 2.0, 1.0, self.DOUBTFUL)
-        return first, second
+        confirmed = ~known
+        if known.any() and len(labels[1]["pixels"]) > 0:
+            distance, _ = cKDTree(labels[1]["pixels"]).query(moved[known])
+            confirmed[known] = distance < 2.0
+        weights[0] = weights[0] * numpy.where(confirmed, 1.0, self.DOUBTFUL)
+        return confirmed, weights
 
     def follow(self, base, pixels, moved, generator):
         """A window of the second image that shows what the first one's shows, turned and scaled at random."""

@@ -100,7 +100,7 @@ def paper_loss(network, sample, weight=1.2):
     return {"detector": detection, "descriptor": description, "loss": detection + weight * description}
 
 
-def ghost_loss(network, sample, weight=1.0, temperature=0.07):
+def ghost_loss(network, sample, weight=0.7, temperature=0.07):
     logits, descriptors = network(flat(sample["images"]))
     detection = 2 * detector_loss(logits, flat(sample["labels"]), flat(sample["inside"]), soft=True)
     first, second = both(descriptors, sample["places"])

@@ -146,35 +146,35 @@ class GhostPaper(nn.Module):
 
 class Ghost(nn.Module):
     """Ours: the paper's idea made slim. Where the time of `GhostPaper` goes (its first layers at 1/2 resolution, heads 256 wide)
-    plain strided convolutions of few channels stand instead; Ghost bottlenecks do the work at 1/8. The detector also sees the
-    features at 1/2 and 1/4, folded into its cells: they know where in the cell a corner is.
+    plain strided convolutions of few channels stand instead; Ghost bottlenecks do the work at 1/8.
+
+    The detector works at 1/4: each place says the scores of its 4 × 4 pixels, from features at 1/2 (folded), 1/4 and 1/8. A head at
+    1/8 has to learn a corner once for each of the 64 places in a cell, and its keypoints come to depend on where the cells lie.
     """
 
     dimension = 128
 
-    def __init__(self, half=12, quarter=24, eighth=64, depth=4, width=64):
+    def __init__(self, half=12, quarter=24, eighth=64, depth=4, width=64, corner=24):
         super().__init__()
         self.stem = convolution(1, half, stride=2)
         self.middle = nn.Sequential(convolution(half, quarter, stride=2), GhostBottleneck(quarter, 2 * quarter, quarter))
         self.deep = nn.Sequential(convolution(quarter, eighth, stride=2),
-                                    *[GhostBottleneck(eighth, 2 * eighth, eighth) for _ in range(depth)])  # fmt: skip
-        self.fold_half = fold(half, 32, 4)
-        self.fold_quarter = fold(quarter, 48, 2)
-        self.detector = nn.Sequential(convolution(eighth + 80, width, 1), convolution(width, width),
-                                      nn.Conv2d(width, CELL * CELL + 1, 1))  # fmt: skip
+                                  *[GhostBottleneck(eighth, 2 * eighth, eighth) for _ in range(depth)])  # fmt: skip
+        self.fold = nn.Sequential(nn.Conv2d(half, corner, 2, 2, bias=False), nn.BatchNorm2d(corner), nn.ReLU(inplace=True))
+        self.context = nn.Conv2d(eighth, quarter, 1)
+        self.corner = nn.Sequential(convolution(corner + quarter, corner), nn.Conv2d(corner, 16, 1))
+        self.none = nn.Conv2d(eighth, 1, 1)
         self.descriptor = nn.Sequential(convolution(eighth, width), nn.Conv2d(width, self.dimension, 1))
 
     def forward(self, image):
         half = self.stem(image)
         quarter = self.middle(half)
         eighth = self.deep(quarter)
-        located = torch.cat([eighth, self.fold_half(half), self.fold_quarter(quarter)], dim=1)
-        return self.detector(located), functional.normalize(self.descriptor(eighth), dim=1)
-
-
-def fold(inputs, outputs, step):
-    """A convolution that takes blocks of step × step apart: 1/step of the resolution."""
-    return nn.Sequential(nn.Conv2d(inputs, outputs, step, step, bias=False), nn.BatchNorm2d(outputs), nn.ReLU(inplace=True))
+        context = functional.interpolate(self.context(eighth), scale_factor=2.0, mode="nearest")
+        corners = self.corner(torch.cat([self.fold(half), functional.relu(quarter + context)], dim=1))
+        pixels = functional.pixel_unshuffle(functional.pixel_shuffle(corners, 4), CELL)
+        logits = torch.cat([pixels, self.none(eighth)], dim=1)
+        return logits, functional.normalize(self.descriptor(eighth), dim=1)
 
 
 NETWORKS = {"ghost": Ghost, "ghost_paper": GhostPaper, "superpoint": SuperPoint}
