@@ -36,6 +36,10 @@ struct OutlierRejection {
 /// frame into second) is known too, the direction of translation alone, from two points (RANSAC of
 /// ours; Troiani et al. 2014). `focal` (pixels) turns pixels into angles for the last two.
 /// Deterministic.
+///
+/// Fewer than min_matches, and those for which no model is found, are judged by their neighbours
+/// alone; fewer than eight are all kept. Rows with values that are not finite, and with bearings
+/// that point backwards (z <= 0), are outliers.
 OutlierRejection RejectOutliers(const Correspondences& matches, double focal,
                                 const std::optional<Eigen::Quaterniond>& R_second_first,
                                 const OutlierRejectionOptions& options);
