@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The training loop: resumes from its last checkpoint, writes its curve as CSV."""
 
+import collections
 import csv
 import dataclasses
 import json
@@ -67,6 +68,7 @@ class Run:
         # The mean of the weights over the last few hundred steps is better than any of them, and good at any time of the schedule.
         self.average = AveragedModel(self.network, multi_avg_fn=get_ema_multi_avg_fn(options.average_decay), use_buffers=True)
         self.step = 0
+        self.data = {}  # what it was trained on: pictures by the first part of their names, pairs by scenario
         if self.checkpoint.exists():
             self.load(self.checkpoint)
 
@@ -87,7 +89,7 @@ class Run:
         partial = self.folder / "checkpoint.partial.pt"
         torch.save({"network_name": self.options.network, "network": self.network.state_dict(),
                     "average": self.average.module.state_dict(), "averaged": self.average.state_dict(),
-                    "optimiser": self.optimiser.state_dict(), "step": self.step,
+                    "optimiser": self.optimiser.state_dict(), "step": self.step, "data": self.data,
                     "options": dataclasses.asdict(self.options)}, partial)  # fmt: skip
         partial.replace(self.checkpoint)
 
@@ -108,8 +110,12 @@ class Run:
 def datasets(options, images, pairs, labels):
     single = SingleImages([path for path in images if not validation(path)], labels)
     single.limits.full_rotation_share = options.full_rotation_share
-    return Mixture([single, SimulatedPairs(pairs, labels)], [1 - options.pairs_share, options.pairs_share],
-                   length=options.steps * options.batch, seed=options.seed)  # fmt: skip
+    simulated = SimulatedPairs(pairs, labels)
+    mixture = Mixture([single, simulated], [1 - options.pairs_share, options.pairs_share],
+                      length=options.steps * options.batch, seed=options.seed)  # fmt: skip
+    data = collections.Counter(f"pictures {pathlib.Path(path).name.split('_')[0]}" for path in single.images)
+    data.update(f"simulated pairs {path.parent.parent.name}" for path in simulated.pairs)
+    return mixture, dict(sorted(data.items()))
 
 
 def train(options, images, pairs, labels, folder, progress=print):
@@ -117,7 +123,7 @@ def train(options, images, pairs, labels, folder, progress=print):
     torch.set_num_threads(options.threads)
     run = Run(options, folder)
     (run.folder / "options.json").write_text(json.dumps(dataclasses.asdict(options), indent=2) + "\n")
-    mixture = datasets(options, images, pairs, labels)
+    mixture, run.data = datasets(options, images, pairs, labels)
     mixture.start = run.step * options.batch
     loader = DataLoader(mixture, batch_size=options.batch, num_workers=options.workers, drop_last=True)
     started, first = time.monotonic(), run.step

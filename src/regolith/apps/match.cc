@@ -139,6 +139,7 @@ struct Keypoints {
 Keypoints ExtractAndTime(MatchRecord* record) {
   const auto extractor = FeatureExtractor::Create(record->options, record->model);
   Keypoints keypoints;
+  record->precision = extractor->precision();
   const auto extract = [&](const Image& image, FeatureSet* features) {
     extractor->Reset();
     return MillisecondsOf(

@@ -175,7 +175,7 @@ Json Summary(const MatchRecord& record) {
   summary["features"] = record.options.frontend;
   if (record.model) {
     summary["model"] = {{"name", record.model->name}, {"sha256", record.model->sha256}};
-    summary["precision_asked"] = record.options.network.precision;
+    summary["network_precision"] = record.precision;
     summary["threads"] = record.options.network.threads;
   }
   summary["max_keypoints"] = record.options.max_keypoints;

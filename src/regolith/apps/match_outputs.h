@@ -38,6 +38,7 @@ struct MatchImage {
 struct MatchRecord {
   FeatureOptions options;
   std::optional<ModelManifest> model;
+  std::string precision;  ///< of the network's numbers; empty without one
   MatchImage first;
   MatchImage second;
   PairMatches pair;

@@ -63,7 +63,7 @@ TEST(AdaptiveThreshold, SpreadsMoreEvenlyThanOneThreshold) {
     right.push_back(CountRight(candidates));
   }
   EXPECT_LT(right[0], 60);  // what each cell's strongest are
-  EXPECT_GT(right[1], right[0] + 20);
+  EXPECT_GT(right[1], right[0] + 10);
   EXPECT_NEAR(right[2], 200, 20);
 }
 

@@ -44,6 +44,9 @@ class FeatureExtractor {
   virtual const DetectionStatus& status() const = 0;
   virtual const std::vector<StageTime>& stages() const = 0;
 
+  /// Numbers in which a network computes, "f32" or "bf16"; empty where there is none.
+  virtual std::string precision() const { return {}; }
+
   /// Forgets the thresholds.
   virtual void Reset() = 0;
 

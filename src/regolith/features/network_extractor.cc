@@ -63,6 +63,7 @@ class NetworkExtractor : public FeatureExtractor {
 
   const DetectionStatus& status() const override { return threshold_.status(); }
   const std::vector<StageTime>& stages() const override { return stages_; }
+  std::string precision() const override { return network_.precision(); }
   void Reset() override { threshold_.Reset(); }
 
  private:

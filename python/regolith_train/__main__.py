@@ -1,0 +1,181 @@
+# SPDX-FileCopyrightText: 2026 The Regolith authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""python -m regolith_train label|train|export|evaluate|vocabulary"""
+
+import argparse
+import dataclasses
+import json
+import pathlib
+import shlex
+import sys
+
+DATA = "../shared/data"
+MODELS = pathlib.Path(__file__).resolve().parents[2] / "models"
+EXAMPLES = """\
+a whole training, from pictures to a network in models/:
+  build/release/regolith simulate --scenario lunar --pairs 200 --pairs-only --out pairs/lunar
+  python -m regolith_train label --images ../shared/data/train_images --pairs pairs
+  python -m regolith_train train --network ghost --images ../shared/data/train_images --pairs pairs
+  python -m regolith_train export --network ghost
+  python -m regolith_train vocabulary --network ghost --images ../shared/data/train_images
+  python -m regolith_train evaluate --network ghost --homographies ../shared/data/homography
+"""
+
+
+def images_of(folder):
+    folder = pathlib.Path(folder)
+    paths = sorted(path for kind in ("jpg", "jpeg", "png") for path in folder.rglob(f"*.{kind}"))
+    if not paths:
+        fail(f"{folder}: holds no pictures (jpg, png)")
+    return paths
+
+
+def pair_folders(folder):
+    """Every `pairs` folder below; none where no folder was named."""
+    return sorted(path.parent for path in pathlib.Path(folder).rglob("index.csv")) if folder else []
+
+
+def fail(message):
+    print(f"regolith_train: {message}", file=sys.stderr)
+    raise SystemExit(2)
+
+
+def run_folder(arguments):
+    from regolith_train.training import cache_folder
+
+    return cache_folder() / (arguments.name or arguments.network)
+
+
+def trained(arguments):
+    """The averaged weights of the run's last checkpoint, and what they were trained by."""
+    import torch
+
+    path = run_folder(arguments) / "checkpoint.pt"
+    if not path.exists():
+        fail(f"{path}: is missing; train first, or name another run by --name")
+    state = torch.load(path, map_location="cpu", weights_only=True)
+    if state["network_name"] != arguments.network:
+        fail(f"{path}: holds {state['network_name']}, not {arguments.network}")
+    return state
+
+
+def network_of(arguments):
+    from regolith_train.networks import NETWORKS
+
+    network = NETWORKS[arguments.network]()
+    network.load_state_dict(trained(arguments)["average"])
+    return network.eval()
+
+
+def label(arguments):
+    import torch
+
+    from regolith_train.labels import label_images
+
+    torch.set_num_threads(arguments.threads)
+    folder = arguments.labels or default_labels()
+    if arguments.images:
+        label_images(images_of(arguments.images), folder, views=arguments.views)
+    pairs = [path for pair in pair_folders(arguments.pairs) for path in sorted(pair.glob("*_[12].png"))]
+    label_images(pairs, folder, views=0)
+
+
+def default_labels():
+    from regolith_train.training import cache_folder
+
+    return cache_folder() / "labels"
+
+
+def train(arguments):
+    from regolith_train.labels import label_path
+    from regolith_train.training import TrainingOptions, train as run_training
+
+    options = TrainingOptions(network=arguments.network)
+    if arguments.config:
+        options = dataclasses.replace(options, **json.loads(pathlib.Path(arguments.config).read_text(encoding="utf-8")))
+    for field in dataclasses.fields(TrainingOptions):
+        value = getattr(arguments, field.name, None)
+        if value is not None:
+            options = dataclasses.replace(options, **{field.name: value})
+    labels = arguments.labels or default_labels()
+    images = [path for path in images_of(arguments.images) if label_path(labels, path).exists()]
+    if not images:
+        fail(f"{labels}: holds no labels of these pictures; run `label` first")
+    folder = run_folder(arguments)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "command.txt").write_text("python -m regolith_train " + shlex.join(sys.argv[1:]) + "\n", encoding="utf-8")
+    run_training(options, images, pair_folders(arguments.pairs), labels, folder, lambda line: print(line, flush=True))
+
+
+def export(arguments):
+    from regolith_train import provenance
+    from regolith_train.export import export as write
+
+    state = trained(arguments)
+    print(write(arguments.network, state["average"], arguments.out, provenance.describe(state, run_folder(arguments))))
+
+
+def vocabulary(arguments):
+    from regolith_train.vocabulary import write_vocabulary
+
+    path = pathlib.Path(arguments.out) / f"{arguments.network}_vocabulary.npy"
+    write_vocabulary(network_of(arguments), images_of(arguments.images), path)
+    print(path)
+
+
+def evaluate(arguments):
+    from regolith_train.evaluation import extractor, fitted, score_oxford, score_shifts
+
+    extract = extractor(network_of(arguments))
+    scores = score_oxford(extract, arguments.homographies)
+    for name, values in scores.items():
+        print(name, "  ".join(f"{key} {value:.2f}" for key, value in values.items()))
+    image, _ = fitted(pathlib.Path(arguments.homographies) / "oxford_graf" / "img1.png")
+    shifts = score_shifts(extract, image)
+    print("repeatability at 1 px under shifts", "  ".join(f"{shift} {value:.2f}" for shift, value in shifts.items()))
+
+
+def parser():
+    from regolith_train.networks import NETWORKS
+
+    top = argparse.ArgumentParser(prog="python -m regolith_train", epilog=EXAMPLES, description=__doc__,
+                                  formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
+    commands = top.add_subparsers(dest="command", required=True)
+
+    def command(name, function, help_text):
+        added = commands.add_parser(name, help=help_text)
+        added.set_defaults(function=function)
+        added.add_argument("--threads", type=int, default=2)
+        if name != "label":
+            added.add_argument("--network", choices=sorted(NETWORKS), default="ghost")
+            added.add_argument("--name", help="of the run in REGOLITH_CACHE/training; default: the network's")
+        return added
+
+    added = command("label", label, "keypoints and descriptors of a teacher for pictures and simulated pairs")
+    added.add_argument("--images", help="folder of pictures")
+    added.add_argument("--pairs", help="folder below which `simulate --pairs` wrote")
+    added.add_argument("--labels", help="folder they go to; default REGOLITH_CACHE/training/labels")
+    added.add_argument("--views", type=int, default=1, help="homographic views that scores are averaged over")
+    added = command("train", train, "train a network; goes on where the run of that name stopped")
+    for name in ("images", "pairs", "labels", "config"):
+        added.add_argument(f"--{name}", required=name == "images")
+    for name, kind in (("loss", str), ("steps", int), ("batch", int), ("rate", float), ("schedule", str), ("seed", int),
+                       ("workers", int), ("pairs_share", float), ("full_rotation_share", float)):  # fmt: skip
+        added.add_argument(f"--{name.replace('_', '-')}", type=kind)
+    added = command("export", export, "write models/NAME.onnx, its manifest and parity tensors")
+    added.add_argument("--out", default=MODELS)
+    added = command("vocabulary", vocabulary, "write the words of the global descriptor")
+    added.add_argument("--images", required=True)
+    added.add_argument("--out", default=MODELS)
+    added = command("evaluate", evaluate, "score a network on homographies")
+    added.add_argument("--homographies", default=f"{DATA}/homography")
+    return top
+
+
+def main():
+    arguments = parser().parse_args()
+    arguments.function(arguments)
+
+
+if __name__ == "__main__":
+    main()
