@@ -19,11 +19,11 @@ INPUT, LOGITS, DESCRIPTORS = "image", "logits", "descriptors"
 
 
 def parity_input():
-    """A picture with corners, flats and noise, made of the same numbers everywhere."""
+    """A picture of 8 bits with corners, flats and noise, made of the same numbers everywhere, 0 to 1."""
     rows, columns = numpy.mgrid[0:PARITY_HEIGHT, 0:PARITY_WIDTH]
     blocks = ((rows // 11 + columns // 13) % 3) * 0.3
     noise = numpy.random.default_rng(5).uniform(0, 0.1, (PARITY_HEIGHT, PARITY_WIDTH))
-    return (blocks + noise).astype(numpy.float32)[None, None]
+    return (numpy.rint(255 * (blocks + noise)) / 255).astype(numpy.float32)[None, None]
 
 
 def write_onnx(network, path):

@@ -12,7 +12,6 @@ import pathlib
 import time
 
 import torch
-from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
 from torch.utils.data import DataLoader
 
 from regolith_train.data import Mixture, SimulatedPairs, SingleImages, validation
@@ -66,7 +65,7 @@ class Run:
         self.network = NETWORKS[options.network]().to(memory_format=torch.channels_last)
         self.optimiser = torch.optim.AdamW(self.network.parameters(), lr=options.rate, weight_decay=options.weight_decay)
         # The mean of the weights over the last few hundred steps is better than any of them, and good at any time of the schedule.
-        self.average = AveragedModel(self.network, multi_avg_fn=get_ema_multi_avg_fn(options.average_decay), use_buffers=True)
+        self.average = {name: value.clone() for name, value in self.network.state_dict().items()}
         self.step = 0
         self.data = {}  # what it was trained on: pictures by the first part of their names, pairs by scenario
         if self.checkpoint.exists():
@@ -82,14 +81,13 @@ class Run:
             raise SystemExit(f"{path}: holds {state['network_name']}, not {self.options.network}; name another --name")
         self.network.load_state_dict(state["network"])
         self.optimiser.load_state_dict(state["optimiser"])
-        self.average.load_state_dict(state["averaged"])
+        self.average = state["average"]
         self.step = state["step"]
 
     def save(self):
         partial = self.folder / "checkpoint.partial.pt"
         torch.save({"network_name": self.options.network, "network": self.network.state_dict(),
-                    "average": self.average.module.state_dict(), "averaged": self.average.state_dict(),
-                    "optimiser": self.optimiser.state_dict(), "step": self.step, "data": self.data,
+                    "average": self.average, "optimiser": self.optimiser.state_dict(), "step": self.step, "data": self.data,
                     "options": dataclasses.asdict(self.options)}, partial)  # fmt: skip
         partial.replace(self.checkpoint)
 
@@ -102,9 +100,18 @@ class Run:
         terms["loss"].backward()
         torch.nn.utils.clip_grad_norm_(self.network.parameters(), 5.0)
         self.optimiser.step()
-        self.average.update_parameters(self.network)
+        self.update_average()
         self.step += 1
         return {name: float(value.detach()) for name, value in terms.items()}
+
+    def update_average(self):
+        # Early steps would otherwise carry the random start along.
+        weight = max(1 - self.options.average_decay, 1 / (self.step + 1))
+        for name, value in self.network.state_dict().items():
+            if value.is_floating_point():
+                self.average[name].lerp_(value, weight)
+            else:
+                self.average[name].copy_(value)
 
 
 def datasets(options, images, pairs, labels):

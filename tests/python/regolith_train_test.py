@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The Regolith authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The training package: truths of its geometry and losses, and a training of a few steps that resumes. Runs on Debian's python3-torch
+(/usr/bin/python3); without any torch it reports itself as skipped (exit code 77)."""
+
+import math
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+
+try:
+    import numpy
+    import torch
+    from PIL import Image
+except ImportError as error:
+    print(f"SKIPPED: {error}; apt-get install python3-torch python3-pil")
+    sys.exit(77)
+
+from regolith_train import losses, networks  # noqa: E402
+from regolith_train.data import SingleImages, flow_at  # noqa: E402
+from regolith_train.homography import HomographyRange, random_homography, transform, warp_image  # noqa: E402
+from regolith_train.inference import detect_and_describe, mutual_matches, score_map, suppress  # noqa: E402
+from regolith_train.labels import label_path  # noqa: E402
+from regolith_train.training import TrainingOptions, train  # noqa: E402
+from regolith_train.vocabulary import spherical_kmeans  # noqa: E402
+
+
+def texture(height, width, seed=1):
+    """Smoothed noise with corners in it, 0 to 1."""
+    generator = torch.Generator().manual_seed(seed)
+    coarse = torch.rand(1, 1, height // 8, width // 8, generator=generator)
+    image = torch.nn.functional.interpolate(coarse, (height, width), mode="nearest")[0, 0]
+    return (0.8 * image + 0.1 * torch.rand(height, width, generator=generator)).numpy()
+
+
+class Networks(unittest.TestCase):
+    def test_outputs_have_the_shapes_of_the_contract(self):
+        for name, network in networks.NETWORKS.items():
+            made = network().eval()
+            with torch.no_grad():
+                logits, descriptors = made(torch.rand(1, 1, 64, 96))
+            self.assertEqual(tuple(logits.shape), (1, 65, 8, 12), name)
+            self.assertEqual(tuple(descriptors.shape), (1, made.dimension, 8, 12), name)
+            torch.testing.assert_close(descriptors.norm(dim=1), torch.ones(1, 8, 12))
+
+    def test_the_papers_encoder_is_1_2_wide_and_ends_with_96_channels(self):
+        network = networks.GhostPaper()
+        widths = [block.main[-1].outputs for block in network.encoder[1:]]
+        self.assertEqual(widths, [20, 28, 28, 48, 48, 96])
+
+
+class Geometry(unittest.TestCase):
+    def test_a_warped_point_shows_what_the_image_shows(self):
+        image = torch.zeros(1, 120, 160)
+        image[0, 60, 80] = 1.0
+        generator = numpy.random.default_rng(3)
+        for _ in range(10):
+            homography = random_homography(generator, 160, 120, HomographyRange(scale=1.2, rotation=0.5, translation=0.05))
+            warped, _ = warp_image(image, homography, 160, 120)
+            expected = transform(homography, numpy.array([[80.0, 60.0]]))[0]
+            weights = warped[0].numpy()
+            rows, columns = numpy.mgrid[0:120, 0:160]
+            found = numpy.array([(weights * columns).sum(), (weights * rows).sum()]) / weights.sum()
+            self.assertLess(numpy.abs(found - expected).max(), 0.3)
+
+    def test_flow_is_read_at_the_nearest_pixel_with_the_offset(self):
+        rows, columns = numpy.mgrid[0:10, 0:20].astype(numpy.float32)
+        flow = numpy.stack([columns + 2, rows - 1])
+        numpy.testing.assert_allclose(flow_at(flow, numpy.array([[3.25, 4.75]])), [[5.25, 3.75]], atol=1e-5)
+
+
+class Detector(unittest.TestCase):
+    def test_soft_targets_are_distributions_whose_mean_is_the_label(self):
+        labels = torch.tensor([[[13.25, 9.5, 1.0], [0.0, 0.0, 0.0]]])
+        targets = losses.detector_targets(labels, 32, 40, soft=True)
+        torch.testing.assert_close(targets.sum(1), torch.ones(1, 4, 5))
+        pixels = torch.nn.functional.pixel_shuffle(targets[:, :64], 8)[0, 0]
+        rows, columns = torch.meshgrid(torch.arange(32.0), torch.arange(40.0), indexing="ij")
+        self.assertAlmostEqual(float((pixels * columns).sum() / pixels.sum()), 13.25, places=5)
+        self.assertAlmostEqual(float((pixels * rows).sum() / pixels.sum()), 9.5, places=5)
+
+    def test_hard_targets_name_one_pixel_a_cell(self):
+        labels = torch.tensor([[[2.0, 3.0, 1.0], [5.0, 6.0, 1.0]]])
+        targets = losses.detector_targets(labels, 16, 16, soft=False)
+        self.assertEqual(targets[0, :, 0, 0].argmax(), 3 * 8 + 2)
+        self.assertEqual(float(targets[0, 64].sum()), 3.0)
+
+    def test_a_network_that_says_the_labels_gives_them_back(self):
+        labels = torch.tensor([[[13.0, 9.0, 1.0], [30.0, 21.0, 1.0]]])
+        logits = 20 * losses.detector_targets(labels, 32, 40, soft=True)
+        kept = suppress(score_map(logits), 4) & (score_map(logits) > 0.5)
+        self.assertEqual({(int(x), int(y)) for _, _, y, x in torch.nonzero(kept)}, {(13, 9), (30, 21)})
+
+
+class Descriptors(unittest.TestCase):
+    def test_sampling_at_a_cells_centre_is_the_cell(self):
+        field = torch.nn.functional.normalize(torch.randn(1, 16, 4, 5), dim=1)
+        sampled = losses.sample_descriptors(field, torch.tensor([[[3.5 + 8 * 2, 3.5 + 8 * 1]]]))
+        torch.testing.assert_close(sampled[0, 0], field[0, :, 1, 2])
+
+    def test_losses_prefer_what_matches(self):
+        first = torch.nn.functional.normalize(torch.randn(2, 40, 32), dim=2)
+        other = torch.nn.functional.normalize(torch.randn(2, 40, 32), dim=2)
+        places = 300 * torch.rand(2, 40, 2)
+        valid = torch.ones(2, 40, dtype=torch.bool)
+        for loss in (lambda b: losses.triplet_loss(first, b, places, valid),
+                     lambda b: losses.contrastive_loss(first, b, first, places, valid, 0.07)):  # fmt: skip
+            self.assertLess(float(loss(first)), 0.5 * float(loss(other)))
+
+    def test_mutual_matches_of_a_permutation_are_the_permutation(self):
+        rows = torch.nn.functional.normalize(torch.randn(30, 16), dim=1)
+        order = torch.randperm(30)
+        first, second = mutual_matches(rows, rows[order])
+        self.assertTrue(bool((order[second] == first).all()) and len(first) == 30)
+
+    def test_words_are_unit_and_near_their_clusters(self):
+        centres = torch.eye(8)[:4]
+        rows = torch.nn.functional.normalize(centres.repeat(50, 1) + 0.05 * torch.randn(200, 8), dim=1)
+        words = spherical_kmeans(rows, 4, seed=3)
+        torch.testing.assert_close(words.norm(dim=1), torch.ones(4))
+        self.assertGreater(float((words @ centres.T).max(1).values.min()), 0.95)
+
+
+class Training(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        root = pathlib.Path(self.folder.name)
+        self.images, self.labels = [], root / "labels"
+        self.labels.mkdir()
+        for index in range(3):
+            path = root / "set" / f"picture_{index}.png"
+            path.parent.mkdir(exist_ok=True)
+            Image.fromarray((255 * texture(260, 340, index)).astype(numpy.uint8)).save(path)
+            corners = numpy.array([[x, y] for y in range(8, 250, 16) for x in range(8, 330, 16)], dtype=float)
+            descriptors = numpy.random.default_rng(index).standard_normal((len(corners), 128))
+            descriptors /= numpy.linalg.norm(descriptors, axis=1, keepdims=True)
+            numpy.savez(label_path(self.labels, path), pixels=corners, scores=numpy.ones(len(corners)),
+                        descriptors=descriptors.astype(numpy.float16))  # fmt: skip
+            self.images.append(path)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_the_two_views_of_a_sample_correspond(self):
+        dataset = SingleImages(self.images, self.labels, photometric=False)
+        sample = dataset.draw(0, numpy.random.default_rng(4))
+        places, valid = sample["places"].round().long(), sample["valid"]
+        self.assertGreater(int(valid.sum()), 10)
+        views = sample["images"][:, 0]
+        # A corner of four blocks looks the same up to the warp: their mean grey does.
+        means = [torch.nn.functional.avg_pool2d(view[None, None], 5, 1, 2)[0, 0] for view in views]
+        greys = torch.stack([mean[places[k, valid, 1], places[k, valid, 0]] for k, mean in enumerate(means)])
+        self.assertGreater(float(torch.corrcoef(greys)[0, 1]), 0.8)
+
+    def test_a_run_that_resumes_ends_where_one_without_a_break_does(self):
+        options = TrainingOptions(network="ghost", steps=4, batch=2, workers=0, warm_up=2, bf16=False, threads=1,
+                                  schedule="constant", checkpoint_every=1)  # fmt: skip
+        root = pathlib.Path(self.folder.name)
+        half = TrainingOptions(**{**vars(options), "steps": 2})
+        whole = train(options, self.images, [], self.labels, root / "whole", progress=lambda line: None)
+        train(half, self.images, [], self.labels, root / "parts", progress=lambda line: None)
+        parts = train(options, self.images, [], self.labels, root / "parts", progress=lambda line: None)
+        self.assertEqual((whole.step, parts.step), (4, 4))
+        for name, value in whole.network.state_dict().items():
+            torch.testing.assert_close(parts.network.state_dict()[name], value, msg=name)
+
+    def test_detection_and_description_agree_in_length(self):
+        pixels, scores, descriptors = detect_and_describe(networks.Ghost().eval(), torch.from_numpy(texture(61, 83)), 20)
+        self.assertEqual(len(pixels), len(scores))
+        self.assertEqual(tuple(descriptors.shape), (len(pixels), 128))
+        self.assertTrue(math.isfinite(float(descriptors.sum())))
+
+
+if __name__ == "__main__":
+    unittest.main()
