@@ -105,13 +105,30 @@ bool IsWanted(const std::string& sensor, const ReadOptions& options) {
   return std::find(options.cameras.begin(), options.cameras.end(), sensor) != options.cameras.end();
 }
 
+/// Name of the sensor's topic in the bag; an image's may be compressed.
+auto FindName(const std::vector<BagTopic>& topics, const BagSensor& sensor) {
+  const auto find = [&](const std::string& name) {
+    return std::find_if(topics.begin(), topics.end(),
+                        [&](const BagTopic& topic) { return topic.name == name; });
+  };
+  const auto found = find(sensor.topic);
+  return found == topics.end() && sensor.IsCamera() ? find(sensor.topic + "/compressed") : found;
+}
+
 class BagSource : public SensorSource {
  public:
   BagSource(const std::string& path, const RigCalibration& rig, const ReadOptions& options)
       : bag_(BagReader::Open(path)) {
     CheckCuts(options.cuts, rig);
     for (const BagSensor& sensor : SensorsOf(rig)) {
-      if (IsWanted(sensor.sensor, options)) AddStream(FindTopic(*bag_, sensor), rig, options.cuts);
+      if (!IsWanted(sensor.sensor, options)) continue;
+      if (options.skip_absent_cameras && sensor.IsCamera() &&
+          FindName(bag_->topics(), sensor) == bag_->topics().end()) {
+        notices_.push_back("no images of camera " + sensor.sensor + ": " + path + " has no topic " +
+                           sensor.topic);
+        continue;
+      }
+      AddStream(FindTopic(*bag_, sensor), rig, options.cuts);
     }
     FindStart(rig);
   }
@@ -135,7 +152,7 @@ class BagSource : public SensorSource {
   TimeNs end_time() const override { return end_; }
 
   std::vector<std::string> Notices() const override {
-    std::vector<std::string> notices;
+    std::vector<std::string> notices = notices_;
     for (const auto& stream : streams_) stream->filter.AppendNotices(&notices);
     return notices;
   }
@@ -248,6 +265,7 @@ class BagSource : public SensorSource {
 
   std::unique_ptr<BagReader> bag_;
   std::vector<std::unique_ptr<Stream>> streams_;
+  std::vector<std::string> notices_;
   std::optional<TimeNs> passed_on_;
   TimeNs start_ = 0;
   TimeNs end_ = 0;
@@ -278,13 +296,7 @@ std::vector<BagSensor> SensorsOf(const RigCalibration& rig) {
 
 BagSensor FindTopic(const BagReader& bag, BagSensor sensor) {
   const auto& topics = bag.topics();
-  const auto find = [&](const std::string& name) {
-    return std::find_if(topics.begin(), topics.end(),
-                        [&](const BagTopic& topic) { return topic.name == name; });
-  };
-  auto found = find(sensor.topic);
-  const bool camera = sensor.types.size() > 1;
-  if (found == topics.end() && camera) found = find(sensor.topic + "/compressed");
+  const auto found = FindName(topics, sensor);
   if (found == topics.end()) {
     std::string others;
     for (const BagTopic& topic : topics) {

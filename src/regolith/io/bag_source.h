@@ -21,6 +21,8 @@ struct BagSensor {
   std::string topic;               ///< as the rig says, or with /compressed behind it
   std::vector<std::string> types;  ///< message types that fit
   std::string type;                ///< the one found
+
+  bool IsCamera() const { return types.size() > 1; }
 };
 
 /// The sensors of the rig, their topics not yet looked for.

@@ -306,6 +306,16 @@ TEST(BagSource, WrongTopicsAreNamed) {
   options.cameras = {"mono"};
   EXPECT_THAT(ErrorOf([&] { ReadAll(*OpenBagSource(path, rig, options)); }),
               AllOf(HasSubstr("8 x 6"), HasSubstr("640 x 6")));
+  rig = MakeRig();
+  rig.cameras["mono"].topic = "/elsewhere";
+  EXPECT_THAT(ErrorOf([&] { OpenBagSource(path, rig, options); }),
+              HasSubstr("no topic /elsewhere"));
+  options.skip_absent_cameras = true;
+  const auto source = OpenBagSource(path, rig, options);
+  for (const SensorEvent& event : ReadAll(*source)) {
+    EXPECT_FALSE(std::holds_alternative<CameraFrame>(event));
+  }
+  EXPECT_THAT(source->Notices(), testing::Contains(HasSubstr("no topic /elsewhere")));
 }
 
 TEST(BagSource, CloudsWithoutRingAndTimeAreReported) {

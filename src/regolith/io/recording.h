@@ -48,6 +48,8 @@ struct ReadOptions {
   bool imu = true;
   bool lidar = true;
   std::vector<std::string> cameras;  ///< names in the rig
+  /// Cameras whose topic a bag lacks are left out, with a notice, instead of refused.
+  bool skip_absent_cameras = false;
   bool wheels = false;
   std::vector<TopicCut> cuts;
 };

