@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 constexpr uintmax_t kMaxNetworkBytes = 6'000'000;
 constexpr uintmax_t kMaxAllBytes = 12'000'000;
 
-/// The networks that are shipped: as their manifests say, and in agreement with the exporter's PyTorch.
+/// The networks that are shipped: as their manifests say, and in agreement with the exporter's
+/// PyTorch.
 class Models : public testing::TestWithParam<std::string> {
  protected:
   ModelManifest manifest_ =

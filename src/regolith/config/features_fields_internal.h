@@ -16,6 +16,7 @@ void Fields(Archive& archive, AdaptiveThresholdOptions& adaptive) {
   archive("cell_size", adaptive.cell_size);
   archive("initial", adaptive.initial);
   archive("floor", adaptive.floor);
+  archive("min_contrast", adaptive.min_contrast);
   archive("evenness", adaptive.evenness);
   archive("memory", adaptive.memory);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace regolith {
 namespace {
@@ -36,6 +37,25 @@ ContrastStretch StretchFor(const Image& image) {
   // With the gain at its bound the middle of the range stays where a wider stretch would put it.
   stretch.low = darkest / 255.0;
   return stretch;
+}
+
+double LocalContrast(const Image& image, int column, int row) {
+  constexpr int kRadius = 3;
+  int count = 0;
+  int sum = 0;
+  int squares = 0;
+  for (int y = std::max(0, row - kRadius); y <= std::min(image.height - 1, row + kRadius); ++y) {
+    for (int x = std::max(0, column - kRadius); x <= std::min(image.width - 1, column + kRadius);
+         ++x) {
+      const int grey = image.At(x, y);
+      ++count;
+      sum += grey;
+      squares += grey * grey;
+    }
+  }
+  if (count == 0) return 0.0;
+  const double mean = static_cast<double>(sum) / count;
+  return std::sqrt(std::max(0.0, static_cast<double>(squares) / count - mean * mean));
 }
 
 }  // namespace regolith

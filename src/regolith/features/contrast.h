@@ -19,4 +19,7 @@ struct ContrastStretch {
 /// so that sensor noise stays noise; an image that uses its range stays as it is.
 ContrastStretch StretchFor(const Image& image);
 
+/// Standard deviation of the grey levels in the 7 × 7 pixels around one, cut at the image's edge.
+double LocalContrast(const Image& image, int column, int row);
+
 }  // namespace regolith

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace regolith {
 namespace {
 
@@ -34,6 +36,16 @@ TEST(StretchFor, DoesNotMakeNoiseASignal) {
   Image black{10, 10, std::vector<uint8_t>(100, 0)};
   EXPECT_DOUBLE_EQ(StretchFor(black).gain, 1.0);
   EXPECT_DOUBLE_EQ(StretchFor(Image()).gain, 1.0);
+}
+
+TEST(LocalContrast, IsTheStandardDeviationAround) {
+  // Columns alternate between 10 and 14: three and four of each in a window of 7.
+  Image image{20, 20, {}};
+  for (int i = 0; i < 400; ++i) image.data.push_back(i % 2 == 0 ? 10 : 14);
+  EXPECT_NEAR(LocalContrast(image, 10, 10), 4.0 * std::sqrt(3.0 * 4.0 / 49.0), 1e-9);
+  EXPECT_NEAR(LocalContrast(image, 0, 0), 2.0, 1e-9);
+  const Image flat{5, 5, std::vector<uint8_t>(25, 200)};
+  EXPECT_EQ(LocalContrast(flat, 2, 2), 0.0);
 }
 
 }  // namespace

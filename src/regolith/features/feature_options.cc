@@ -12,6 +12,7 @@ void AdaptiveThresholdOptions::Check() const {
   REGOLITH_CHECK(cell_size >= 16, "adaptive.cell_size=", cell_size);
   REGOLITH_CHECK(initial > 0.0 && initial < 1.0, "adaptive.initial=", initial);
   REGOLITH_CHECK(floor > 0.0 && floor <= initial, "adaptive.floor=", floor);
+  REGOLITH_CHECK(min_contrast >= 0.0, "adaptive.min_contrast=", min_contrast);
   REGOLITH_CHECK(evenness >= 0.0 && evenness <= 1.0, "adaptive.evenness=", evenness);
   REGOLITH_CHECK(memory >= 0.0 && memory <= 1.0, "adaptive.memory=", memory);
 }

@@ -28,9 +28,12 @@ struct AdaptiveThresholdOptions {
   bool enabled = true;     ///< false: the fixed threshold `initial`, the same everywhere
   int cell_size = 80;      ///< pixels
   double initial = 0.015;  ///< score
-  double floor = 0.004;    ///< score that noise in flat shadow and black sky stays below
-  double evenness = 0.5;   ///< 0: one threshold for all cells; 1: as many keypoints in each
-  double memory = 0.5;     ///< weight of the last frame's threshold (of its logarithm)
+  double floor = 0.004;    ///< lowest score of a keypoint
+  /// Grey levels, standard deviation of the 7 × 7 pixels around a keypoint of a network, at least:
+  /// what is less is the sensor's noise in flat shadow and black sky. 0: no such test.
+  double min_contrast = 2.0;
+  double evenness = 0.5;  ///< 0: one threshold for all cells; 1: as many keypoints in each
+  double memory = 0.5;    ///< weight of the last frame's threshold (of its logarithm)
 
   void Check() const;
 };

@@ -8,6 +8,7 @@
 #include "regolith/core/check.h"
 #include "regolith/core/stopwatch.h"
 #include "regolith/features/adaptive_threshold.h"
+#include "regolith/features/contrast.h"
 #include "regolith/features/feature_network.h"
 #include "regolith/features/score_map.h"
 
@@ -43,6 +44,7 @@ class NetworkExtractor : public FeatureExtractor {
     MakeScoreMap(output_, image.width, image.height, &map_);
     stopwatch.Lap("scores");
     suppression_.Run(map_, mask, suppression_options_, &candidates_);
+    DropNoise(image);
     stopwatch.Lap("suppression");
     threshold_.Select(image.width, image.height, max_keypoints, &candidates_);
     for (const Candidate& candidate : candidates_) {
@@ -67,6 +69,16 @@ class NetworkExtractor : public FeatureExtractor {
   void Reset() override { threshold_.Reset(); }
 
  private:
+  void DropNoise(const Image& image) {
+    const double least = options_.adaptive.min_contrast;
+    if (least <= 0.0) return;
+    const auto noise = [&](const Candidate& one) {
+      return LocalContrast(image, one.column, one.row) < least;
+    };
+    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), noise),
+                      candidates_.end());
+  }
+
   FeatureOptions options_;
   FeatureNetwork network_;
   AdaptiveThreshold threshold_;
