@@ -18,7 +18,8 @@ constexpr char kHeader[] =
     "accelerometer_walk m/s³/√Hz;\n"
     "# *_bias_sigma: spread of the bias at switch-on, rad/s and m/s². time_offset: s to add to a "
     "sensor's stamps.\n"
-    "# A camera's mask: PNG as large as its images, path from here, 0 where the rover sees its own "
+    "# The mask of a camera is a PNG as large as its images, path from here, 0 where the rover "
+    "sees its own "
     "parts.\n";
 
 }  // namespace
