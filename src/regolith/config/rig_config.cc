@@ -17,7 +17,10 @@ constexpr char kHeader[] =
     "# gyro_density rad/s/√Hz, gyro_walk rad/s²/√Hz, accelerometer_density m/s²/√Hz, "
     "accelerometer_walk m/s³/√Hz;\n"
     "# *_bias_sigma: spread of the bias at switch-on, rad/s and m/s². time_offset: s to add to a "
-    "sensor's stamps.\n";
+    "sensor's stamps.\n"
+    "# The mask of a camera is a PNG as large as its images, path from here, 0 where the rover "
+    "sees its own "
+    "parts.\n";
 
 }  // namespace
 

@@ -52,7 +52,7 @@ TEST(RigConfig, WrittenRigReadsBackAsTheSame) {
 
 TEST(RigConfig, MasksLieBesideTheRig) {
   RigCalibration rig = Example();
-  EXPECT_EQ(WriteRig(rig).find("mask"), std::string::npos);
+  EXPECT_EQ(WriteRig(rig).find(" mask: "), std::string::npos);
   rig.cameras["mono"].mask_file = "masks/mono.png";
   const RigCalibration read =
       LoadRig(YamlDocument::FromText(WriteRig(rig), "/data/rover/rig.yaml"));

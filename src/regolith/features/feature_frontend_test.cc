@@ -10,6 +10,8 @@
 
 #include "regolith/core/check.h"
 #include "regolith/core/error.h"
+#include "regolith/core/random.h"
+#include "regolith/features/lk_frontend.h"
 #include "regolith/features/test_texture_internal.h"
 #include "regolith/geometry/so3.h"
 
@@ -315,22 +317,61 @@ TEST_P(Frontends, MatchPairsApartFromTheStream) {
 
 INSTANTIATE_TEST_SUITE_P(All, Frontends, testing::Values("orb", "st_lk"));
 
-TEST(MatchingFrontend, FindsTracksAgainThatWereHidden) {
-  const Sequence sequence(11);
-  const auto frontend = FeatureFrontend::Create(OptionsOf("orb"), nullptr, std::nullopt);
+/// Shi–Tomasi's corners with descriptors of the place that they show: what a perfect network would
+/// say.
+class PlaceExtractor final : public FeatureExtractor {
+ public:
+  PlaceExtractor(const Sequence* sequence, const int* frame)
+      : sequence_(sequence), frame_(frame), corners_(Create(OptionsOf("st_lk"), std::nullopt)) {}
+
+  void Extract(const Image& image, const Image* mask, int max_keypoints,
+               FeatureSet* features) override {
+    corners_->Extract(image, mask, max_keypoints, features);
+    features->descriptors = Describe(features->pixels);
+  }
+
+  Descriptors Describe(const std::vector<Eigen::Vector2f>& pixels) const override {
+    Descriptors descriptors;
+    descriptors.type = DescriptorType::kFloat;
+    descriptors.dimension = 64;
+    for (const Eigen::Vector2f& pixel : pixels) {
+      const Eigen::Vector2d place = sequence_->Place(*frame_, pixel);
+      for (uint64_t i = 0; i < 32; ++i) {
+        // Waves of random directions, some 20 pixels long.
+        const Eigen::Vector2d wave(0.3 * HashGaussian(1, i), 0.3 * HashGaussian(2, i));
+        descriptors.values.push_back(static_cast<float>(std::cos(wave.dot(place)) / 5.7));
+        descriptors.values.push_back(static_cast<float>(std::sin(wave.dot(place)) / 5.7));
+      }
+    }
+    return descriptors;
+  }
+
+  const DetectionStatus& status() const override { return corners_->status(); }
+  const std::vector<StageTime>& stages() const override { return corners_->stages(); }
+  void Reset() override {}
+
+ private:
+  const Sequence* sequence_;
+  const int* frame_;
+  std::unique_ptr<FeatureExtractor> corners_;
+};
+
+// For three frames the right half shows nothing.
+void FindHiddenTracksAgain(FeatureFrontend& frontend, const Sequence& sequence, int* current) {
   std::map<int64_t, Eigen::Vector2d> hidden;
   int right = 0;
   int wrong = 0;
   for (int i = 0; i < 9; ++i) {
+    *current = i;
     Image image = sequence.At(i);
-    // For three frames the right half shows nothing.
     if (i >= 4 && i < 7) {
       for (int row = 0; row < kHeight; ++row) {
         std::fill(image.data.begin() + row * kWidth + kWidth / 2,
                   image.data.begin() + (row + 1) * kWidth, uint8_t{20});
       }
     }
-    const TrackedFrame frame = TrackAt(*frontend, i, image);
+    const TrackedFrame frame = TrackAt(frontend, i, image);
+    CheckFrame(frame, OptionsOf("orb"));
     for (const TrackedFeature& feature : frame.features) {
       if (i == 3 && feature.pixel.x() > 360.0F && feature.age >= 3) {
         hidden.emplace(feature.id, sequence.Place(i, feature.pixel));
@@ -339,11 +380,25 @@ TEST(MatchingFrontend, FindsTracksAgainThatWereHidden) {
       (sequence.Place(i, feature.pixel) - hidden[feature.id]).norm() < 4.0 ? ++right : ++wrong;
     }
   }
-  RecordProperty("hidden", static_cast<int>(hidden.size()));
-  RecordProperty("right", right);
-  RecordProperty("wrong", wrong);
+  testing::Test::RecordProperty("hidden", static_cast<int>(hidden.size()));
+  testing::Test::RecordProperty("right", right);
+  testing::Test::RecordProperty("wrong", wrong);
   EXPECT_GT(right, static_cast<int>(hidden.size()) / 3);
   EXPECT_LE(wrong, right / 20);
+}
+
+TEST(MatchingFrontend, FindsTracksAgainThatWereHidden) {
+  const auto frontend = FeatureFrontend::Create(OptionsOf("orb"), nullptr, std::nullopt);
+  int frame = 0;
+  FindHiddenTracksAgain(*frontend, Sequence(11), &frame);
+}
+
+TEST(LkFrontend, FindsTracksAgainThatWereHidden) {
+  const Sequence sequence(11);
+  int frame = 0;
+  const auto frontend = CreateLkFrontend(OptionsOf("st_lk"), nullptr,
+                                         std::make_unique<PlaceExtractor>(&sequence, &frame));
+  FindHiddenTracksAgain(*frontend, sequence, &frame);
 }
 
 TEST(MatchingFrontend, ForgetsWhatWasLostForLong) {

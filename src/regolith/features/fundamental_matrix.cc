@@ -17,7 +17,8 @@ namespace regolith {
 namespace {
 
 constexpr int kSamples = 30;
-constexpr size_t kSampleSize = 14;
+// Not minimal: what noise a fit of few has, a fit of many has less of.
+constexpr size_t kSampleSize = 50;
 constexpr int kIterations = 10;
 // Of the trace. Points of a plane leave directions open; there the matrix has to stay.
 constexpr double kMinDamping = 1e-8;
@@ -193,7 +194,7 @@ Eigen::Matrix3d RefineFundamental(const std::vector<Eigen::Vector2d>& first,
   Eigen::Matrix3d best = initial;
   double best_cost = Cost(problem, initial, INFINITY);
   Random random(0x7265676fULL, "fundamental matrix");
-  for (int i = 0; i < kSamples && inliers.size() > 2 * kSampleSize; ++i) {
+  for (int i = 0; i < kSamples && inliers.size() > kSampleSize; ++i) {
     const Eigen::Matrix3d sampled = FitSample(problem, inliers, &random);
     const double cost = Cost(problem, sampled, best_cost);
     if (!(cost < best_cost)) continue;
