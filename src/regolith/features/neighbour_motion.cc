@@ -35,11 +35,24 @@ struct AffineMotion {
   }
 };
 
-/// The lower of the middle ones; reorders.
+/// The lower of the middle ones; reorders. Few values, as neighbours are, are sorted by exchanges
+/// that need no branch (std::nth_element: a third more time for the whole test).
 double Median(std::vector<double>* values) {
-  const size_t middle = (values->size() - 1) / 2;
-  std::nth_element(values->begin(), values->begin() + static_cast<std::ptrdiff_t>(middle),
-                   values->end());
+  const size_t size = values->size();
+  const size_t middle = (size - 1) / 2;
+  if (size > 16) {
+    std::nth_element(values->begin(), values->begin() + static_cast<std::ptrdiff_t>(middle),
+                     values->end());
+  } else {
+    double* data = values->data();
+    for (size_t end = size; end > 1; --end) {
+      for (size_t i = 1; i < end; ++i) {
+        const double low = std::min(data[i - 1], data[i]);
+        data[i] = std::max(data[i - 1], data[i]);
+        data[i - 1] = low;
+      }
+    }
+  }
   return (*values)[middle];
 }
 
