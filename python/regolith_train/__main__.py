@@ -53,7 +53,7 @@ def trained(arguments):
     path = run_folder(arguments) / "checkpoint.pt"
     if not path.exists():
         fail(f"{path}: is missing; train first, or name another run by --name")
-    state = torch.load(path, map_location="cpu", weights_only=True)
+    state = torch.load(path, map_location="cpu", weights_only=False)
     if state["network_name"] != arguments.network:
         fail(f"{path}: holds {state['network_name']}, not {arguments.network}")
     return state

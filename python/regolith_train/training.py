@@ -76,7 +76,7 @@ class Run:
         return self.folder / "checkpoint.pt"
 
     def load(self, path):
-        state = torch.load(path, map_location="cpu", weights_only=True)
+        state = torch.load(path, map_location="cpu", weights_only=False)
         if state["network_name"] != self.options.network:
             raise SystemExit(f"{path}: holds {state['network_name']}, not {self.options.network}; name another --name")
         self.network.load_state_dict(state["network"])
