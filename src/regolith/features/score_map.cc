@@ -13,6 +13,8 @@ namespace {
 constexpr int kCell = 8;
 constexpr int kPixels = kCell * kCell;
 constexpr int kChannels = kPixels + 1;
+// So many pixels are sorted in less time than their local maxima are looked for.
+constexpr size_t kSorted = 4096;
 
 using CellScores = Eigen::Array<float, kPixels, 1>;
 
@@ -30,6 +32,14 @@ uint64_t SortKey(float score, size_t place) {
   uint32_t bits = 0;
   std::memcpy(&bits, &score, sizeof(bits));
   return (static_cast<uint64_t>(~bits) << 32U) | place;
+}
+
+size_t Place(const ScoreMap& map, int row, int column) {
+  return static_cast<size_t>(row) * static_cast<size_t>(map.width) + static_cast<size_t>(column);
+}
+
+void Raise(const float* values, size_t count, float* highest) {
+  for (size_t i = 0; i < count; ++i) highest[i] = values[i] > highest[i] ? values[i] : highest[i];
 }
 
 }  // namespace
@@ -59,35 +69,102 @@ void MakeScoreMap(const NetworkOutput& output, int width, int height, ScoreMap* 
 void NonMaximumSuppression::Run(const ScoreMap& map, const Image* mask,
                                 const SuppressionOptions& options,
                                 std::vector<Candidate>* candidates) {
+  keys_.clear();
   candidates->clear();
-  order_.clear();
-  const auto width = static_cast<size_t>(map.width);
   // Centres of mass need a pixel on each side.
   const int border = std::max(options.border, 1);
+  if (map.width <= 2 * border || map.height <= 2 * border) return;
+  Prepare(map, mask, border, options.floor);
+  while (CountLeft() > kSorted) TakeLocalMaxima(map, options.radius);
+  TakeRest(map, options.radius);
+  std::sort(keys_.begin(), keys_.end());
+  for (const uint64_t key : keys_) {
+    const size_t place = key & 0xffffffffU;
+    const auto width = static_cast<size_t>(map.width);
+    candidates->push_back(
+        {static_cast<int>(place % width), static_cast<int>(place / width), map.scores[place]});
+  }
+}
+
+void NonMaximumSuppression::Prepare(const ScoreMap& map, const Image* mask, int border,
+                                    float floor) {
+  left_.assign(map.scores.size(), 0.0F);
+  const auto count = static_cast<size_t>(map.width - 2 * border);
   for (int row = border; row < map.height - border; ++row) {
-    const size_t first = static_cast<size_t>(row) * width;
-    for (size_t place = first + static_cast<size_t>(border);
-         place + static_cast<size_t>(border) < first + width; ++place) {
-      if (map.scores[place] <= options.floor) continue;
-      if (mask != nullptr && mask->data[place] == 0) continue;
-      order_.push_back(SortKey(map.scores[place], place));
+    const size_t first = Place(map, row, border);
+    const float* scores = map.scores.data() + first;
+    float* left = left_.data() + first;
+    for (size_t i = 0; i < count; ++i) left[i] = scores[i] > floor ? scores[i] : 0.0F;
+    if (mask == nullptr) continue;
+    for (size_t i = 0; i < count; ++i) left[i] = mask->data[first + i] != 0 ? left[i] : 0.0F;
+  }
+}
+
+size_t NonMaximumSuppression::CountLeft() const {
+  int count = 0;
+  for (const float score : left_) count += score > 0.0F ? 1 : 0;
+  return static_cast<size_t>(count);
+}
+
+void NonMaximumSuppression::TakeLocalMaxima(const ScoreMap& map, int radius) {
+  const auto width = static_cast<size_t>(map.width);
+  const int padded = map.width + 2 * radius;
+  column_highest_.assign(static_cast<size_t>(padded), 0.0F);
+  found_.clear();
+  for (int row = 0; row < map.height; ++row) {
+    // Highest of each column's 2 radius + 1 pixels around this row, then along the row.
+    float* columns = column_highest_.data() + radius;
+    std::fill(columns, columns + width, 0.0F);
+    const int last = std::min(map.height - 1, row + radius);
+    for (int y = std::max(0, row - radius); y <= last; ++y)
+      Raise(left_.data() + Place(map, y, 0), width, columns);
+    row_highest_.assign(width, 0.0F);
+    for (int shift = 0; shift <= 2 * radius; ++shift) {
+      Raise(column_highest_.data() + shift, width, row_highest_.data());
+    }
+    const float* scores = left_.data() + Place(map, row, 0);
+    for (size_t x = 0; x < width; ++x) {
+      if (scores[x] > 0.0F && scores[x] >= row_highest_[x] &&
+          IsFirstAround(map, row, static_cast<int>(x), radius)) {
+        found_.push_back(Place(map, row, static_cast<int>(x)));
+      }
     }
   }
+  for (const size_t place : found_) Take(map, place, radius);
+}
+
+bool NonMaximumSuppression::IsFirstAround(const ScoreMap& map, int row, int column,
+                                          int radius) const {
+  const size_t place = Place(map, row, column);
+  for (int y = std::max(0, row - radius); y <= row; ++y) {
+    for (int x = std::max(0, column - radius); x <= std::min(map.width - 1, column + radius); ++x) {
+      const size_t other = Place(map, y, x);
+      if (other < place && left_[other] == left_[place]) return false;
+    }
+  }
+  return true;
+}
+
+void NonMaximumSuppression::TakeRest(const ScoreMap& map, int radius) {
+  order_.clear();
+  for (size_t place = 0; place < left_.size(); ++place) {
+    if (left_[place] > 0.0F) order_.push_back(SortKey(left_[place], place));
+  }
   std::sort(order_.begin(), order_.end());
-  taken_.assign(map.scores.size(), 0);
   for (const uint64_t key : order_) {
     const size_t place = key & 0xffffffffU;
-    if (taken_[place] != 0) continue;
-    const int row = static_cast<int>(place / width);
-    const int column = static_cast<int>(place % width);
-    candidates->push_back({column, row, map.scores[place]});
-    const int left = std::max(0, column - options.radius);
-    const int right = std::min(map.width - 1, column + options.radius);
-    for (int y = std::max(0, row - options.radius);
-         y <= std::min(map.height - 1, row + options.radius); ++y) {
-      std::memset(taken_.data() + static_cast<size_t>(y) * width + static_cast<size_t>(left), 1,
-                  static_cast<size_t>(right - left + 1));
-    }
+    if (left_[place] > 0.0F) Take(map, place, radius);
+  }
+}
+
+void NonMaximumSuppression::Take(const ScoreMap& map, size_t place, int radius) {
+  keys_.push_back(SortKey(left_[place], place));
+  const int row = static_cast<int>(place / static_cast<size_t>(map.width));
+  const int column = static_cast<int>(place % static_cast<size_t>(map.width));
+  const int first = std::max(0, column - radius);
+  const int last = std::min(map.width - 1, column + radius);
+  for (int y = std::max(0, row - radius); y <= std::min(map.height - 1, row + radius); ++y) {
+    std::fill(left_.data() + Place(map, y, first), left_.data() + Place(map, y, last) + 1, 0.0F);
   }
 }
 

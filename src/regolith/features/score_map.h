@@ -37,7 +37,9 @@ struct SuppressionOptions {
 };
 
 /// Greedy non-maximum suppression, exact: strongest first, each takes the square of `radius` around
-/// it. Of equal scores the upper, then the left one is first. Keeps its buffers.
+/// it. Of equal scores the upper, then the left one is first. A pixel that is first in its own
+/// square is taken whatever lies beyond, so those are found by scanning, and only what no square of
+/// theirs covers is sorted. Keeps its buffers.
 class NonMaximumSuppression {
  public:
   /// Candidates by falling score. `mask`, where given, is as large as the map and 0 where none may
@@ -46,8 +48,20 @@ class NonMaximumSuppression {
            std::vector<Candidate>* candidates);
 
  private:
+  void Prepare(const ScoreMap& map, const Image* mask, int border, float floor);
+  size_t CountLeft() const;
+  void TakeLocalMaxima(const ScoreMap& map, int radius);
+  /// Of a pixel that none around is stronger than: no equal one comes before it.
+  bool IsFirstAround(const ScoreMap& map, int row, int column, int radius) const;
+  void TakeRest(const ScoreMap& map, int radius);
+  void Take(const ScoreMap& map, size_t place, int radius);
+
+  std::vector<float> left_;  // scores of the pixels that no square covers yet; 0 for the others
+  std::vector<float> column_highest_;
+  std::vector<float> row_highest_;
+  std::vector<size_t> found_;
   std::vector<uint64_t> order_;
-  std::vector<uint8_t> taken_;
+  std::vector<uint64_t> keys_;
 };
 
 /// The centre of mass of the scores in the 3 × 3 pixels around a candidate: its place to a fraction
