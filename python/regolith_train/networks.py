@@ -148,21 +148,22 @@ class Ghost(nn.Module):
     """Ours: the paper's idea made slim. Where the time of `GhostPaper` goes (its first layers at 1/2 resolution, heads 256 wide)
     plain strided convolutions of few channels stand instead; Ghost bottlenecks do the work at 1/8.
 
-    The detector works at 1/4: each place says the scores of its 4 × 4 pixels, from features at 1/2 (folded), 1/4 and 1/8. A head at
-    1/8 has to learn a corner once for each of the 64 places in a cell, and its keypoints come to depend on where the cells lie.
+    The detector works at 1/2: each place says the scores of its 2 × 2 pixels, from the features there and, lifted, those at 1/4 and
+    1/8. A head at 1/8 has to learn a corner once for each of the 64 places in a cell, and its keypoints come to depend on where the
+    cells lie (docs/features.md has the figures).
     """
 
     dimension = 128
 
-    def __init__(self, half=12, quarter=24, eighth=64, depth=4, width=64, corner=24):
+    def __init__(self, half=16, quarter=24, eighth=64, depth=4, width=64, lifted=8):
         super().__init__()
         self.stem = convolution(1, half, stride=2)
         self.middle = nn.Sequential(convolution(half, quarter, stride=2), GhostBottleneck(quarter, 2 * quarter, quarter))
         self.deep = nn.Sequential(convolution(quarter, eighth, stride=2),
                                   *[GhostBottleneck(eighth, 2 * eighth, eighth) for _ in range(depth)])  # fmt: skip
-        self.fold = nn.Sequential(nn.Conv2d(half, corner, 2, 2, bias=False), nn.BatchNorm2d(corner), nn.ReLU(inplace=True))
         self.context = nn.Conv2d(eighth, quarter, 1)
-        self.corner = nn.Sequential(convolution(corner + quarter, corner), nn.Conv2d(corner, 16, 1))
+        self.lift = nn.Conv2d(quarter, lifted, 1)
+        self.corner = nn.Sequential(convolution(half + lifted, half), nn.Conv2d(half, 4, 1))
         self.none = nn.Conv2d(eighth, 1, 1)
         self.descriptor = nn.Sequential(convolution(eighth, width), nn.Conv2d(width, self.dimension, 1))
 
@@ -170,11 +171,15 @@ class Ghost(nn.Module):
         half = self.stem(image)
         quarter = self.middle(half)
         eighth = self.deep(quarter)
-        context = functional.interpolate(self.context(eighth), scale_factor=2.0, mode="nearest")
-        corners = self.corner(torch.cat([self.fold(half), functional.relu(quarter + context)], dim=1))
-        pixels = functional.pixel_unshuffle(functional.pixel_shuffle(corners, 4), CELL)
+        lifted = self.lift(functional.relu(quarter + twice(self.context(eighth))))
+        corners = self.corner(torch.cat([half, twice(lifted)], dim=1))
+        pixels = functional.pixel_unshuffle(functional.pixel_shuffle(corners, 2), CELL)
         logits = torch.cat([pixels, self.none(eighth)], dim=1)
         return logits, functional.normalize(self.descriptor(eighth), dim=1)
+
+
+def twice(features):
+    return functional.interpolate(features, scale_factor=2.0, mode="nearest")
 
 
 NETWORKS = {"ghost": Ghost, "ghost_paper": GhostPaper, "superpoint": SuperPoint}

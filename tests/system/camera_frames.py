@@ -37,6 +37,19 @@ def decode(message):
     return numpy.array(Image.open(io.BytesIO(message.data.tobytes())))
 
 
+def stamped_images(folder, camera="mono"):
+    """Stamps (s, of the camera's clock) and image messages of a recording's camera."""
+    rig = YAML(typ="safe", pure=True).load(folder / "rig.yaml")["cameras"][camera]
+    with Reader(folder / "recording.bag") as reader:
+        topics = [
+            connection for connection in reader.connections
+            if connection.topic in (rig["topic"], rig["topic"] + "/compressed")
+        ]
+        for connection, _, data in reader.messages(connections=topics):
+            message = TYPES.deserialize_ros1(data, connection.msgtype)
+            yield message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec, message
+
+
 def read_frames(folder, every=1, camera="mono"):
     """Pairs of an image and its pixels' elevations above the horizontal in degrees."""
     rig = YAML(typ="safe", pure=True).load(folder / "rig.yaml")["cameras"][camera]
@@ -44,18 +57,11 @@ def read_frames(folder, every=1, camera="mono"):
     R_imu_camera = numpy.array(rig["T_imu_camera"], dtype=float)[:3, :3]
     truth = numpy.array(read_tum(folder / "ground_truth.tum"))
     frames = []
-    with Reader(folder / "recording.bag") as reader:
-        topics = [
-            connection for connection in reader.connections
-            if connection.topic in (rig["topic"], rig["topic"] + "/compressed")
-        ]
-        for index, (connection, _, data) in enumerate(reader.messages(connections=topics)):
-            if index % every != 0:
-                continue
-            message = TYPES.deserialize_ros1(data, connection.msgtype)
-            stamp = message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec - CAMERA_DELAY
-            pose = truth[numpy.argmin(numpy.abs(truth[:, 0] - stamp))]
-            up_camera = (Rotation.from_quat(pose[4:8]).as_matrix() @ R_imu_camera)[2]
-            elevation = numpy.degrees(numpy.arcsin(directions @ up_camera))
-            frames.append((decode(message), elevation))
+    for index, (stamp, message) in enumerate(stamped_images(folder, camera)):
+        if index % every != 0:
+            continue
+        pose = truth[numpy.argmin(numpy.abs(truth[:, 0] - (stamp - CAMERA_DELAY)))]
+        up_camera = (Rotation.from_quat(pose[4:8]).as_matrix() @ R_imu_camera)[2]
+        elevation = numpy.degrees(numpy.arcsin(directions @ up_camera))
+        frames.append((decode(message), elevation))
     return frames
