@@ -41,19 +41,22 @@ ContrastStretch StretchFor(const Image& image) {
 
 double LocalContrast(const Image& image, int column, int row) {
   constexpr int kRadius = 3;
-  int count = 0;
+  const int left = std::max(0, column - kRadius);
+  const int right = std::min(image.width - 1, column + kRadius);
+  const int top = std::max(0, row - kRadius);
+  const int bottom = std::min(image.height - 1, row + kRadius);
   int sum = 0;
   int squares = 0;
-  for (int y = std::max(0, row - kRadius); y <= std::min(image.height - 1, row + kRadius); ++y) {
-    for (int x = std::max(0, column - kRadius); x <= std::min(image.width - 1, column + kRadius);
-         ++x) {
-      const int grey = image.At(x, y);
-      ++count;
-      sum += grey;
-      squares += grey * grey;
+  for (int y = top; y <= bottom; ++y) {
+    const uint8_t* greys =
+        image.data.data() + static_cast<size_t>(y) * static_cast<size_t>(image.width);
+    for (int x = left; x <= right; ++x) {
+      sum += greys[x];
+      squares += greys[x] * greys[x];
     }
   }
-  if (count == 0) return 0.0;
+  const int count = (right - left + 1) * (bottom - top + 1);
+  if (count <= 0) return 0.0;
   const double mean = static_cast<double>(sum) / count;
   return std::sqrt(std::max(0.0, static_cast<double>(squares) / count - mean * mean));
 }

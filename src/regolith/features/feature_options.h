@@ -25,10 +25,10 @@ inline constexpr std::array<FrontendName, 6> kFrontends = {{{"ghost", "ghost"},
 /// its even share of keypoints, and all of them move together within a frame until the number asked
 /// for is met.
 struct AdaptiveThresholdOptions {
-  bool enabled = true;     ///< false: the fixed threshold `initial`, the same everywhere
-  int cell_size = 80;      ///< pixels
-  double initial = 0.015;  ///< score
-  double floor = 0.004;    ///< lowest score of a keypoint
+  bool enabled = true;    ///< false: the fixed threshold `initial`, the same everywhere
+  int cell_size = 80;     ///< pixels
+  double initial = 0.02;  ///< score
+  double floor = 0.01;    ///< lowest score of a keypoint
   /// Grey levels, standard deviation of the 7 × 7 pixels around a keypoint of a network, at least:
   /// what is less is the sensor's noise in flat shadow and black sky. 0: no such test.
   double min_contrast = 2.0;

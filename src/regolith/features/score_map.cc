@@ -13,8 +13,8 @@ namespace {
 constexpr int kCell = 8;
 constexpr int kPixels = kCell * kCell;
 constexpr int kChannels = kPixels + 1;
-// So many pixels are sorted in less time than their local maxima are looked for.
-constexpr size_t kSorted = 4096;
+// After which what is left is sorted: a ramp has one local maximum a round.
+constexpr int kRounds = 8;
 
 using CellScores = Eigen::Array<float, kPixels, 1>;
 
@@ -40,6 +40,19 @@ size_t Place(const ScoreMap& map, int row, int column) {
 
 void Raise(const float* values, size_t count, float* highest) {
   for (size_t i = 0; i < count; ++i) highest[i] = values[i] > highest[i] ? values[i] : highest[i];
+}
+
+// No early exit: nine values are compared sooner than nine branches are taken.
+bool AnyAbove(const float* values, size_t count, float score) {
+  int found = 0;
+  for (size_t i = 0; i < count; ++i) found |= values[i] > score ? 1 : 0;
+  return found != 0;
+}
+
+bool AnyAtLeast(const float* values, size_t count, float score) {
+  int found = 0;
+  for (size_t i = 0; i < count; ++i) found |= values[i] >= score ? 1 : 0;
+  return found != 0;
 }
 
 }  // namespace
@@ -75,8 +88,10 @@ void NonMaximumSuppression::Run(const ScoreMap& map, const Image* mask,
   const int border = std::max(options.border, 1);
   if (map.width <= 2 * border || map.height <= 2 * border) return;
   Prepare(map, mask, border, options.floor);
-  while (CountLeft() > kSorted) TakeLocalMaxima(map, options.radius);
-  TakeRest(map, options.radius);
+  TakeLocalMaxima(map, options.radius);
+  ListRest();
+  for (int round = 0; round < kRounds && !rest_.empty(); ++round) TakeRound(map, options.radius);
+  TakeSorted(map, options.radius);
   std::sort(keys_.begin(), keys_.end());
   for (const uint64_t key : keys_) {
     const size_t place = key & 0xffffffffU;
@@ -100,12 +115,6 @@ void NonMaximumSuppression::Prepare(const ScoreMap& map, const Image* mask, int 
   }
 }
 
-size_t NonMaximumSuppression::CountLeft() const {
-  int count = 0;
-  for (const float score : left_) count += score > 0.0F ? 1 : 0;
-  return static_cast<size_t>(count);
-}
-
 void NonMaximumSuppression::TakeLocalMaxima(const ScoreMap& map, int radius) {
   const auto width = static_cast<size_t>(map.width);
   const int padded = map.width + 2 * radius;
@@ -114,42 +123,96 @@ void NonMaximumSuppression::TakeLocalMaxima(const ScoreMap& map, int radius) {
   for (int row = 0; row < map.height; ++row) {
     // Highest of each column's 2 radius + 1 pixels around this row, then along the row.
     float* columns = column_highest_.data() + radius;
-    std::fill(columns, columns + width, 0.0F);
+    std::fill(column_highest_.begin(), column_highest_.end(), 0.0F);
     const int last = std::min(map.height - 1, row + radius);
     for (int y = std::max(0, row - radius); y <= last; ++y)
       Raise(left_.data() + Place(map, y, 0), width, columns);
-    row_highest_.assign(width, 0.0F);
-    for (int shift = 0; shift <= 2 * radius; ++shift) {
-      Raise(column_highest_.data() + shift, width, row_highest_.data());
-    }
+    RaiseAlongRow(2 * static_cast<size_t>(radius) + 1, width);
     const float* scores = left_.data() + Place(map, row, 0);
     for (size_t x = 0; x < width; ++x) {
-      if (scores[x] > 0.0F && scores[x] >= row_highest_[x] &&
-          IsFirstAround(map, row, static_cast<int>(x), radius)) {
-        found_.push_back(Place(map, row, static_cast<int>(x)));
-      }
+      if (scores[x] == 0.0F || scores[x] < row_highest_[x]) continue;
+      const size_t place = Place(map, row, static_cast<int>(x));
+      // Nothing around is stronger; an equal one before it would be first.
+      if (!HasEqualBefore(map, row, static_cast<int>(x), radius)) found_.push_back(place);
     }
   }
   for (const size_t place : found_) Take(map, place, radius);
 }
 
-bool NonMaximumSuppression::IsFirstAround(const ScoreMap& map, int row, int column,
-                                          int radius) const {
-  const size_t place = Place(map, row, column);
-  for (int y = std::max(0, row - radius); y <= row; ++y) {
-    for (int x = std::max(0, column - radius); x <= std::min(map.width - 1, column + radius); ++x) {
-      const size_t other = Place(map, y, x);
-      if (other < place && left_[other] == left_[place]) return false;
-    }
+void NonMaximumSuppression::RaiseAlongRow(size_t window, size_t width) {
+  // The highest of `covered` values from each place on; twice as many a step.
+  size_t covered = 1;
+  for (; 2 * covered <= window; covered *= 2) {
+    const size_t count = column_highest_.size() - covered;
+    row_highest_ = column_highest_;
+    Raise(column_highest_.data() + covered, count, row_highest_.data());
+    std::swap(row_highest_, column_highest_);
+  }
+  row_highest_ = column_highest_;
+  Raise(column_highest_.data() + window - covered, width, row_highest_.data());
+}
+
+bool NonMaximumSuppression::HasEqualBefore(const ScoreMap& map, int row, int column,
+                                           int radius) const {
+  const int first = std::max(0, column - radius);
+  const auto count = static_cast<size_t>(std::min(map.width - 1, column + radius) - first + 1);
+  const float* own = left_.data() + Place(map, row, first);
+  const float score = left_[Place(map, row, column)];
+  bool found = AnyAtLeast(own, static_cast<size_t>(column - first), score);
+  for (int step = 1; step <= std::min(radius, row); ++step) {
+    found |= AnyAtLeast(own - Place(map, step, 0), count, score);
+  }
+  return found;
+}
+
+bool NonMaximumSuppression::IsFirstAround(const ScoreMap& map, size_t place, int radius) const {
+  const int row = static_cast<int>(place / static_cast<size_t>(map.width));
+  const int column = static_cast<int>(place % static_cast<size_t>(map.width));
+  const int first = std::max(0, column - radius);
+  const auto count = static_cast<size_t>(std::min(map.width - 1, column + radius) - first + 1);
+  const float score = left_[place];
+  const auto before = static_cast<size_t>(column - first);
+  const float* own = left_.data() + Place(map, row, first);
+  if (AnyAtLeast(own, before, score)) return false;
+  if (AnyAbove(own + before + 1, count - before - 1, score)) return false;
+  // Nearest rows first: a stronger pixel is mostly a neighbour.
+  for (int step = 1; step <= radius; ++step) {
+    if (row - step >= 0 && AnyAtLeast(own - Place(map, step, 0), count, score)) return false;
+    if (row + step < map.height && AnyAbove(own + Place(map, step, 0), count, score)) return false;
   }
   return true;
 }
 
-void NonMaximumSuppression::TakeRest(const ScoreMap& map, int radius) {
-  order_.clear();
-  for (size_t place = 0; place < left_.size(); ++place) {
-    if (left_[place] > 0.0F) order_.push_back(SortKey(left_[place], place));
+void NonMaximumSuppression::ListRest() {
+  constexpr size_t kBlock = 32;
+  rest_.clear();
+  for (size_t first = 0; first < left_.size(); first += kBlock) {
+    const size_t end = std::min(first + kBlock, left_.size());
+    // Most blocks hold nothing any more.
+    int count = 0;
+    for (size_t place = first; place < end; ++place) count += left_[place] > 0.0F ? 1 : 0;
+    for (size_t place = first; count > 0; ++place) {
+      if (left_[place] == 0.0F) continue;
+      rest_.push_back(place);
+      --count;
+    }
   }
+}
+
+void NonMaximumSuppression::TakeRound(const ScoreMap& map, int radius) {
+  found_.clear();
+  for (const size_t place : rest_) {
+    if (IsFirstAround(map, place, radius)) found_.push_back(place);
+  }
+  for (const size_t place : found_) Take(map, place, radius);
+  rest_.erase(std::remove_if(rest_.begin(), rest_.end(),
+                             [this](size_t place) { return left_[place] == 0.0F; }),
+              rest_.end());
+}
+
+void NonMaximumSuppression::TakeSorted(const ScoreMap& map, int radius) {
+  order_.clear();
+  for (const size_t place : rest_) order_.push_back(SortKey(left_[place], place));
   std::sort(order_.begin(), order_.end());
   for (const uint64_t key : order_) {
     const size_t place = key & 0xffffffffU;

@@ -49,17 +49,20 @@ class NonMaximumSuppression {
 
  private:
   void Prepare(const ScoreMap& map, const Image* mask, int border, float floor);
-  size_t CountLeft() const;
   void TakeLocalMaxima(const ScoreMap& map, int radius);
-  /// Of a pixel that none around is stronger than: no equal one comes before it.
-  bool IsFirstAround(const ScoreMap& map, int row, int column, int radius) const;
-  void TakeRest(const ScoreMap& map, int radius);
+  void RaiseAlongRow(size_t window, size_t width);
+  bool HasEqualBefore(const ScoreMap& map, int row, int column, int radius) const;
+  bool IsFirstAround(const ScoreMap& map, size_t place, int radius) const;
+  void ListRest();
+  void TakeRound(const ScoreMap& map, int radius);
+  void TakeSorted(const ScoreMap& map, int radius);
   void Take(const ScoreMap& map, size_t place, int radius);
 
   std::vector<float> left_;  // scores of the pixels that no square covers yet; 0 for the others
   std::vector<float> column_highest_;
   std::vector<float> row_highest_;
   std::vector<size_t> found_;
+  std::vector<size_t> rest_;
   std::vector<uint64_t> order_;
   std::vector<uint64_t> keys_;
 };
