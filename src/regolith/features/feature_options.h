@@ -32,7 +32,7 @@ struct AdaptiveThresholdOptions {
   /// Grey levels, standard deviation of the 7 × 7 pixels around a keypoint of a network, at least:
   /// what is less is the sensor's noise in flat shadow and black sky. 0: no such test.
   double min_contrast = 2.0;
-  double evenness = 0.5;  ///< 0: one threshold for all cells; 1: as many keypoints in each
+  double evenness = 0.3;  ///< 0: one threshold for all cells; 1: as many keypoints in each
   double memory = 0.5;    ///< weight of the last frame's threshold (of its logarithm)
 
   void Check() const;
