@@ -5,12 +5,14 @@
 import argparse
 import dataclasses
 import json
+import os
 import pathlib
 import shlex
 import sys
 
-DATA = "../shared/data"
-MODELS = pathlib.Path(__file__).resolve().parents[2] / "models"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MODELS = ROOT / "models"
+DATA = pathlib.Path(os.environ.get("REGOLITH_DATA") or ROOT.parent / "shared" / "data")
 EXAMPLES = """\
 a whole training, from pictures to a network in models/:
   build/release/regolith simulate --scenario lunar --pairs 200 --pairs-only --out pairs/lunar
@@ -104,7 +106,10 @@ def train(arguments):
     folder = run_folder(arguments)
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "command.txt").write_text("python -m regolith_train " + shlex.join(sys.argv[1:]) + "\n", encoding="utf-8")
-    run_training(options, images, pair_folders(arguments.pairs), labels, folder, lambda line: print(line, flush=True))
+    from regolith_train.export import read_weights
+
+    start = read_weights(arguments.start) if arguments.start else None
+    run_training(options, images, pair_folders(arguments.pairs), labels, folder, lambda line: print(line, flush=True), start)
 
 
 def export(arguments):
@@ -127,6 +132,8 @@ def evaluate(arguments):
     from regolith_train.evaluation import extractor, fitted, score_oxford, score_shifts
 
     extract = extractor(network_of(arguments))
+    if not (pathlib.Path(arguments.homographies) / "oxford_graf").is_dir():
+        fail(f"{arguments.homographies}: has no folder oxford_graf; name the folder of Oxford's sequences by --homographies")
     scores = score_oxford(extract, arguments.homographies)
     for name, values in scores.items():
         print(name, "  ".join(f"{key} {value:.2f}" for key, value in values.items()))
@@ -157,6 +164,7 @@ def parser():
     added.add_argument("--labels", help="folder they go to; default REGOLITH_CACHE/training/labels")
     added.add_argument("--views", type=int, default=1, help="homographic views that scores are averaged over")
     added = command("train", train, "train a network; goes on where the run of that name stopped")
+    added.add_argument("--start", help="ONNX file of the same network whose weights a new run begins with")
     for name in ("images", "pairs", "labels", "config"):
         added.add_argument(f"--{name}", required=name == "images")
     for name, kind in (("loss", str), ("steps", int), ("batch", int), ("rate", float), ("schedule", str), ("seed", int),
@@ -168,7 +176,7 @@ def parser():
     added.add_argument("--images", required=True)
     added.add_argument("--out", default=MODELS)
     added = command("evaluate", evaluate, "score a network on homographies")
-    added.add_argument("--homographies", default=f"{DATA}/homography")
+    added.add_argument("--homographies", default=DATA / "homography")
     return top
 
 

@@ -27,14 +27,23 @@ def parity_input():
 
 
 def write_onnx(network, path):
-    """Weights keep their names (no constants are folded), so that training can start from the file again."""
+    """Weights keep their names (nothing is folded or fused; OpenVINO does that), so that training can start from the file."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         extra = {"dynamo": False} if torch.__version__ >= "2.5" else {}
         torch.onnx.export(network, (torch.zeros(1, 1, 64, 96),), str(path), opset_version=OPSET, do_constant_folding=False,
                           input_names=[INPUT], output_names=[LOGITS, DESCRIPTORS],
                           dynamic_axes={name: {2: "height", 3: "width"} for name in (INPUT, LOGITS, DESCRIPTORS)},
-                          training=torch.onnx.TrainingMode.EVAL, **extra)  # fmt: skip
+                          training=torch.onnx.TrainingMode.PRESERVE, **extra)  # fmt: skip
+
+
+def read_weights(path):
+    """The state of a network from its ONNX file, by the weights' names."""
+    import onnx
+    from onnx import numpy_helper
+
+    graph = onnx.load(str(path)).graph
+    return {tensor.name: torch.from_numpy(numpy_helper.to_array(tensor).copy()) for tensor in graph.initializer}
 
 
 def export(name, state, folder, training):

@@ -84,6 +84,15 @@ class Run:
         self.average = state["average"]
         self.step = state["step"]
 
+    def begin_with(self, weights):
+        state = self.network.state_dict()
+        # ONNX has no count of the batches that a normalisation has seen.
+        missing = [name for name in state if name not in weights and not name.endswith("num_batches_tracked")]
+        if missing:
+            raise SystemExit(f"the weights to start with lack {missing[0]} and {len(missing) - 1} more: another network's?")
+        self.network.load_state_dict({**state, **{name: weights[name] for name in state if name in weights}})
+        self.average = {name: value.clone() for name, value in self.network.state_dict().items()}
+
     def save(self):
         partial = self.folder / "checkpoint.partial.pt"
         torch.save({"network_name": self.options.network, "network": self.network.state_dict(),
@@ -125,10 +134,13 @@ def datasets(options, images, pairs, labels):
     return mixture, dict(sorted(data.items()))
 
 
-def train(options, images, pairs, labels, folder, progress=print):
-    """Trains to options.steps; what was reached is in `folder`, also where it was stopped."""
+def train(options, images, pairs, labels, folder, progress=print, start=None):
+    """Trains to options.steps; what was reached is in `folder`, also where it was stopped. A run without a checkpoint begins with
+    the weights `start` (name → tensor), where they are given."""
     torch.set_num_threads(options.threads)
     run = Run(options, folder)
+    if start and run.step == 0:
+        run.begin_with(start)
     (run.folder / "options.json").write_text(json.dumps(dataclasses.asdict(options), indent=2) + "\n")
     mixture, run.data = datasets(options, images, pairs, labels)
     mixture.start = run.step * options.batch

@@ -43,7 +43,8 @@ struct NetworkOptions {
   std::string precision = "auto";  ///< f32, bf16, or auto: bf16 where the processor has it
   int threads = 2;                 ///< of inference
   std::string cache;               ///< folder of compiled models; empty: none
-  bool normalise_contrast = true;  ///< stretch dark and flat images before inference
+  bool normalise_contrast =
+      false;  ///< stretch dark and flat images before inference; no gain was measured
 
   void Check() const;
 };
