@@ -145,8 +145,8 @@ constexpr auto kAll = [](size_t, size_t) { return true; };
 /// Both ways through all sizes, with options that make each rule count.
 void CompareWithDefinition(const Descriptors& all, bool guided) {
   size_t found = 0;
-  for (const size_t first_size : {0, 1, 7, 500}) {
-    for (const size_t second_size : {0, 1, 7, 493}) {
+  for (const size_t first_size : {0U, 1U, 7U, 500U}) {
+    for (const size_t second_size : {0U, 1U, 7U, 493U}) {
       const Descriptors first = Resembling(all, first_size, 17 + first_size);
       const Descriptors second = Resembling(all, second_size, 29 + second_size);
       Random random(first_size + second_size);

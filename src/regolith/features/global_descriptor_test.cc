@@ -123,7 +123,7 @@ TEST(GlobalDescriptor, RefusesWhatTheVocabularyDoesNotDescribe) {
   binary.type = DescriptorType::kBinary;
   binary.bits.assign(kBinaryBytes, 1);
   EXPECT_THROW(vlad.Describe(binary), CheckError);
-  EXPECT_THROW(GlobalDescriptor(Eigen::MatrixXf()), CheckError);
+  EXPECT_THROW(GlobalDescriptor{Eigen::MatrixXf()}, CheckError);
   EXPECT_THROW(GlobalDescriptor(Eigen::MatrixXf::Ones(4, 2)), CheckError);
   EXPECT_THROW(Similarity(Eigen::VectorXf::Zero(3), Eigen::VectorXf::Zero(4)), CheckError);
 }
