@@ -23,7 +23,7 @@ import torch
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 HEIGHT, WIDTH, KEYPOINTS, THREADS, ROUNDS = 480, 640, 500, 2, 15
-OURS = "FeatureTrack/(ghost|ghost_lk|ghost_paper|superpoint|orb|st_lk)/(f32|bf16|none)/640x480/threads:(1|2)$|FeatureSelection|FeatureKnn"
+OURS = "FeatureTrack/(ghost|ghost_lk|ghost_paper|superpoint|orb|st_lk)/(f32|bf16|none)/640x480/threads:(1|2)/|FeatureSelection|FeatureKnn"
 
 
 def picture():

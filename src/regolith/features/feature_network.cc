@@ -172,7 +172,10 @@ class FeatureNetwork::Implementation {
     sized->reshape({{manifest_.input.name, ov::PartialShape{1, 1, height, width}}});
     ov::AnyMap properties = {
         ov::inference_num_threads(options_.threads), ov::num_streams(1),
-        ov::hint::enable_cpu_pinning(false),
+        // A second thread that is woken beside the first stays on its core for longer than an
+        // inference lasts; one thread alone is left to the scheduler, so that processes side by
+        // side do not meet.
+        ov::hint::enable_cpu_pinning(options_.threads > 1),
         ov::hint::inference_precision(precision_ == "bf16" ? ov::element::bf16 : ov::element::f32)};
     if (!options_.cache.empty()) properties.insert(ov::cache_dir(options_.cache));
     Compiled compiled;
