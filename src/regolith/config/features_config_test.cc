@@ -35,8 +35,8 @@ FeatureOptions AllChanged() {
   options.nms_radius = 5;
   options.border = 6;
   options.redetect_share = 0.7;
-  options.adaptive = {false, 64, 0.02, 0.005, 0.75, 0.25};
-  options.network = {"models/other.yaml", "bf16", 3, "/tmp/cache", false};
+  options.adaptive = {false, 64, 0.03, 0.005, 1.5, 0.75, 0.25};
+  options.network = {"models/other.yaml", "bf16", 3, "/tmp/cache", true};
   options.optical_flow = {15, 2, 20, 0.75, 1e-3};
   options.orb = {6, 1.25, 25, 7};
   options.shi_tomasi = {0.02, 5};
