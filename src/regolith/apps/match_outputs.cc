@@ -19,12 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double Median(const std::vector<double>& values) { return Quantile(values, 0.5); }
 
 std::string Fixed(double value, int decimals) {
   char text[64];

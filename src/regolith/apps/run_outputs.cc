@@ -92,13 +92,6 @@ std::string StatusTable(const std::vector<FrameReport>& frames) {
   return text;
 }
 
-double Quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const double place = share * static_cast<double>(values.size() - 1);
-  return values[static_cast<size_t>(std::ceil(place))];
-}
-
 nlohmann::ordered_json SummaryOf(const RunSetup& setup, const SlamSystem& system,
                                  const RunRecord& record,
                                  const std::optional<Evaluation>& evaluation) {
@@ -145,6 +138,13 @@ std::string Indented(const std::string& text) {
 }
 
 }  // namespace
+
+double Quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const double place = share * static_cast<double>(values.size() - 1);
+  return values[static_cast<size_t>(std::ceil(place))];
+}
 
 std::string ResolvedConfiguration(const RunSetup& setup) {
   return "# Everything that this run was made of, resolved.\nversion: " + ProgramVersion() +

@@ -17,6 +17,9 @@ struct StageSummary {
   double p99_ms = 0.0;
 };
 
+/// The value below which `share` of the values lie, the next higher one of them; 0 for none.
+double Quantile(std::vector<double> values, double share);
+
 /// Median and 99th percentile of each stage over the frames that have it, of "total" over the
 /// scans, and of "image_total" over the images, where there are any.
 std::vector<StageSummary> SummariseStages(const std::vector<FrameReport>& frames);

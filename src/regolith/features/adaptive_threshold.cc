@@ -36,22 +36,16 @@ void AdaptiveThreshold::Select(int width, int height, int count,
 
 void AdaptiveThreshold::SetGrid(int width, int height) {
   if (width == width_ && height == height_) return;
-  const auto cells = [&](int side) {
-    return std::max(1,
-                    static_cast<int>(std::lround(static_cast<double>(side) / options_.cell_size)));
-  };
   width_ = width;
   height_ = height;
-  columns_ = cells(width);
-  rows_ = cells(height);
-  members_.resize(static_cast<size_t>(columns_) * static_cast<size_t>(rows_));
+  grid_ = KeypointGrid(width, height, options_.cell_size);
+  members_.resize(static_cast<size_t>(grid_.cells()));
   thresholds_.clear();
 }
 
 size_t AdaptiveThreshold::CellOf(const Candidate& candidate) const {
-  const int column = candidate.column * columns_ / width_;
-  const int row = candidate.row * rows_ / height_;
-  return static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column);
+  return static_cast<size_t>(
+      grid_.CellOf({static_cast<float>(candidate.column), static_cast<float>(candidate.row)}));
 }
 
 void AdaptiveThreshold::SortIntoCells(const std::vector<Candidate>& candidates) {
@@ -71,9 +65,9 @@ void AdaptiveThreshold::MoveThresholds(const std::vector<Candidate>& candidates,
   const float global = candidates.size() >= static_cast<size_t>(count)
                            ? score_at(static_cast<size_t>(count) - 1)
                            : floor;
-  const bool first = thresholds_.empty();
-  if (first) thresholds_.assign(members_.size(), static_cast<float>(options_.initial));
-  const double memory = first ? 0.0 : options_.memory;
+  // The first image has no last one to remember.
+  const double memory = thresholds_.empty() ? 0.0 : options_.memory;
+  thresholds_.resize(members_.size(), floor);
   for (size_t i = 0; i < members_.size(); ++i) {
     const std::vector<int>& cell = members_[i];
     const float even =

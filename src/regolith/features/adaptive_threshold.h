@@ -6,6 +6,7 @@
 
 #include "regolith/features/feature_extractor.h"
 #include "regolith/features/feature_options.h"
+#include "regolith/features/keypoint_grid.h"
 #include "regolith/features/score_map.h"
 
 namespace regolith {
@@ -40,8 +41,7 @@ class AdaptiveThreshold {
   AdaptiveThresholdOptions options_;
   int width_ = 0;
   int height_ = 0;
-  int columns_ = 0;
-  int rows_ = 0;
+  KeypointGrid grid_;
   std::vector<float> thresholds_;            // a cell; empty before the first image
   std::vector<std::vector<int>> members_;    // a cell: its candidates, strongest first
   std::vector<std::pair<float, int>> rank_;  // ratio to the threshold, candidate

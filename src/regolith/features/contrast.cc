@@ -34,7 +34,6 @@ ContrastStretch StretchFor(const Image& image) {
   }
   if (brightest <= darkest) return stretch;
   stretch.gain = std::min(255.0 / (brightest - darkest), kMostGain);
-  // With the gain at its bound the middle of the range stays where a wider stretch would put it.
   stretch.low = darkest / 255.0;
   return stretch;
 }

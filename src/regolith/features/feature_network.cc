@@ -66,15 +66,6 @@ void CheckTensor(const std::string& path, const std::string& kind,
                              ", which the manifest names; was it exported by regolith_train?");
 }
 
-std::vector<ov::Output<ov::Node>> Generic(const std::vector<ov::Output<const ov::Node>>& outputs) {
-  std::vector<ov::Output<ov::Node>> result;
-  for (const auto& output : outputs) {
-    result.emplace_back(std::const_pointer_cast<ov::Node>(output.get_node_shared_ptr()),
-                        output.get_index());
-  }
-  return result;
-}
-
 std::shared_ptr<ov::Model> ReadModel(ov::Core& core, const ModelManifest& manifest) {
   const std::string bytes = ReadBytes(manifest.path);
   const std::string sha256 =
@@ -89,10 +80,9 @@ std::shared_ptr<ov::Model> ReadModel(ov::Core& core, const ModelManifest& manife
   } catch (const ov::Exception&) {
     throw InputError(manifest.path, "is no ONNX network that OpenVINO reads");
   }
-  const std::shared_ptr<const ov::Model> constant = model;
-  CheckTensor(manifest.path, "input", manifest.input, Generic(constant->inputs()));
-  CheckTensor(manifest.path, "output", manifest.logits, Generic(constant->outputs()));
-  CheckTensor(manifest.path, "output", manifest.descriptors, Generic(constant->outputs()));
+  CheckTensor(manifest.path, "input", manifest.input, model->inputs());
+  CheckTensor(manifest.path, "output", manifest.logits, model->outputs());
+  CheckTensor(manifest.path, "output", manifest.descriptors, model->outputs());
   return model;
 }
 

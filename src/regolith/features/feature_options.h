@@ -25,9 +25,9 @@ inline constexpr std::array<FrontendName, 6> kFrontends = {{{"ghost", "ghost"},
 /// its even share of keypoints, and all of them move together within a frame until the number asked
 /// for is met.
 struct AdaptiveThresholdOptions {
-  bool enabled = true;    ///< false: the fixed threshold `initial`, the same everywhere
+  bool enabled = true;    ///< false: one fixed threshold, `initial`
   int cell_size = 80;     ///< pixels
-  double initial = 0.02;  ///< score
+  double initial = 0.02;  ///< score, where the thresholds do not adapt
   double floor = 0.01;    ///< lowest score of a keypoint
   /// Grey levels, standard deviation of the 7 × 7 pixels around a keypoint of a network, at least:
   /// what is less is the sensor's noise in flat shadow and black sky. 0: no such test.

@@ -125,26 +125,13 @@ void LkFrontend::FollowTracks() {
 }
 
 int LkFrontend::RejectSurvivors() {
-  if (survivors_.empty()) return 0;
-  const TrackGeometry& geometry = stream_.geometry();
   correspondences_ = Correspondences();
   for (const Survivor& survivor : survivors_) {
     const TrackedFeature& track = stream_.tracks()[survivor.track];
-    correspondences_.first.push_back(track.pixel);
-    correspondences_.second.push_back(survivor.pixel);
-    if (!geometry.has_camera()) continue;
-    correspondences_.first_bearings.push_back(track.bearing);
-    correspondences_.second_bearings.push_back(survivor.bearing);
+    stream_.geometry().Append({track.pixel, track.bearing}, {survivor.pixel, survivor.bearing},
+                              &correspondences_);
   }
-  const OutlierRejection rejection = RejectOutliers(
-      correspondences_, geometry.focal(), stream_.R_current_previous(), options_.rejection);
-  size_t kept = 0;
-  for (size_t i = 0; i < survivors_.size(); ++i) {
-    if (rejection.inliers[i] != 0) survivors_[kept++] = survivors_[i];
-  }
-  const int rejected = static_cast<int>(survivors_.size() - kept);
-  survivors_.resize(kept);
-  return rejected;
+  return KeepInliers(stream_.Inliers(correspondences_, options_.rejection), &survivors_);
 }
 
 void LkFrontend::KeepApart() {
@@ -256,19 +243,9 @@ PairMatches LkFrontend::MatchPair(const Image& first, const Image& second) {
                             1.0F - flow.errors[i] / kGreyRange});
     pair.second.pixels.push_back(flow.pixels[i]);
     pair.second.scores.push_back(pair.first.scores[i]);
-    matched.first.push_back(pair.first.pixels[i]);
-    matched.second.push_back(flow.pixels[i]);
-    if (!geometry.has_camera()) continue;
-    matched.first_bearings.push_back(*one);
-    matched.second_bearings.push_back(*other);
+    geometry.Append({pair.first.pixels[i], *one}, {flow.pixels[i], *other}, &matched);
   }
-  rest.Lap("match");
-  OutlierRejection rejection =
-      RejectOutliers(matched, geometry.focal(), std::nullopt, options_.rejection);
-  pair.inliers = std::move(rejection.inliers);
-  pair.rejection_model = rejection.model;
-  rest.Lap("reject");
-  pair.stages.insert(pair.stages.end(), rest.stages().begin(), rest.stages().end());
+  FinishPair(matched, geometry, options_.rejection, &rest, &pair);
   return pair;
 }
 

@@ -115,27 +115,15 @@ void MatchingFrontend::MatchTracks() {
 }
 
 int MatchingFrontend::RejectMatches() {
-  const TrackGeometry& geometry = stream_.geometry();
   correspondences_ = Correspondences();
   for (const FeatureMatch& match : matches_) {
     const TrackedFeature& track = stream_.tracks()[static_cast<size_t>(match.first)];
     const auto keypoint = static_cast<size_t>(match.second);
-    correspondences_.first.push_back(track.pixel);
-    correspondences_.second.push_back(keypoints_.pixels[keypoint]);
-    if (!geometry.has_camera()) continue;
-    correspondences_.first_bearings.push_back(track.bearing);
-    correspondences_.second_bearings.push_back(bearings_[keypoint]);
+    stream_.geometry().Append({track.pixel, track.bearing},
+                              {keypoints_.pixels[keypoint], bearings_[keypoint]},
+                              &correspondences_);
   }
-  if (matches_.empty()) return 0;
-  const OutlierRejection rejection = RejectOutliers(
-      correspondences_, geometry.focal(), stream_.R_current_previous(), options_.rejection);
-  size_t kept = 0;
-  for (size_t i = 0; i < matches_.size(); ++i) {
-    if (rejection.inliers[i] != 0) matches_[kept++] = matches_[i];
-  }
-  const int rejected = static_cast<int>(matches_.size() - kept);
-  matches_.resize(kept);
-  return rejected;
+  return KeepInliers(stream_.Inliers(correspondences_, options_.rejection), &matches_);
 }
 
 void MatchingFrontend::ContinueTracks() {
@@ -190,23 +178,14 @@ PairMatches MatchingFrontend::MatchPair(const Image& first, const Image& second)
   if (pair.first.size() > 0 && pair.second.size() > 0) {
     matcher_.Match(pair.first.descriptors, pair.second.descriptors, &pair.matches);
   }
-  rest.Lap("match");
   Correspondences matched;
   for (const FeatureMatch& match : pair.matches) {
     const auto one = static_cast<size_t>(match.first);
     const auto other = static_cast<size_t>(match.second);
-    matched.first.push_back(pair.first.pixels[one]);
-    matched.second.push_back(pair.second.pixels[other]);
-    if (!geometry.has_camera()) continue;
-    matched.first_bearings.push_back(all.first_bearings[one]);
-    matched.second_bearings.push_back(all.second_bearings[other]);
+    geometry.Append({pair.first.pixels[one], all.first_bearings[one]},
+                    {pair.second.pixels[other], all.second_bearings[other]}, &matched);
   }
-  OutlierRejection rejection =
-      RejectOutliers(matched, geometry.focal(), std::nullopt, options_.rejection);
-  pair.inliers = std::move(rejection.inliers);
-  pair.rejection_model = rejection.model;
-  rest.Lap("reject");
-  pair.stages.insert(pair.stages.end(), rest.stages().begin(), rest.stages().end());
+  FinishPair(matched, geometry, options_.rejection, &rest, &pair);
   return pair;
 }
 

@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "regolith/core/check.h"
+#include "regolith/features/corner.h"
 #include "regolith/features/free_pixels.h"
 #include "regolith/features/harris_corner.h"
 #include "regolith/features/keypoint_grid.h"
@@ -33,17 +34,6 @@ constexpr int kFastReach = 4;
 // matches.)
 constexpr int kSameCorner = 1;
 constexpr double kRadiansToDegrees = 57.29577951308232;
-
-struct Corner {
-  float response = 0.0F;
-  int column = 0;
-  int row = 0;
-};
-
-bool Stronger(const Corner& a, const Corner& b) {
-  if (a.response != b.response) return a.response > b.response;
-  return a.row != b.row ? a.row < b.row : a.column < b.column;
-}
 
 /// One scale of the image.
 struct Level {

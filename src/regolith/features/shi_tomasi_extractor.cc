@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "regolith/core/check.h"
+#include "regolith/features/corner.h"
 #include "regolith/features/free_pixels.h"
 #include "regolith/features/keypoint_grid.h"
 #include "regolith/features/opencv_image_internal.h"
@@ -17,17 +18,6 @@ namespace {
 
 // Of the gradients; the eigenvalue's neighbourhood comes on top.
 constexpr int kSobelSize = 3;
-
-struct Corner {
-  float response = 0.0F;
-  int column = 0;
-  int row = 0;
-};
-
-bool Stronger(const Corner& a, const Corner& b) {
-  if (a.response != b.response) return a.response > b.response;
-  return a.row != b.row ? a.row < b.row : a.column < b.column;
-}
 
 // Of equal neighbours the first in reading order is the maximum, so that a plateau gives one
 // corner.

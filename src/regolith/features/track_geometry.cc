@@ -38,4 +38,13 @@ Eigen::Vector2f TrackGeometry::Rotated(
   return rotated ? rotated->cast<float>().eval() : pixel;
 }
 
+void TrackGeometry::Append(const Sighting& first, const Sighting& second,
+                           Correspondences* matches) const {
+  matches->first.push_back(first.pixel);
+  matches->second.push_back(second.pixel);
+  if (!has_camera()) return;
+  matches->first_bearings.push_back(first.bearing);
+  matches->second_bearings.push_back(second.bearing);
+}
+
 }  // namespace regolith

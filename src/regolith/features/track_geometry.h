@@ -7,10 +7,17 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "regolith/features/outlier_rejection.h"
 #include "regolith/sensor/camera_model.h"
 #include "regolith/sensor/image.h"
 
 namespace regolith {
+
+/// A place in an image and its bearing.
+struct Sighting {
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();
+  Eigen::Vector3d bearing = Eigen::Vector3d::UnitZ();
+};
 
 /// What tracking knows of its camera, which may be nothing.
 class TrackGeometry {
@@ -33,6 +40,9 @@ class TrackGeometry {
   /// given, or where it leaves what the lens can see.
   Eigen::Vector2f Rotated(const Eigen::Vector2f& pixel, const Eigen::Vector3d& bearing,
                           const std::optional<Eigen::Quaterniond>& R_current_previous) const;
+
+  /// Adds a row; its bearings only where there is a camera.
+  void Append(const Sighting& first, const Sighting& second, Correspondences* matches) const;
 
  private:
   const CameraModel* camera_;

@@ -56,6 +56,12 @@ void TrackStream::Append(const TrackedFeature& feature, const Observation& obser
   feature_descriptors_.Append(*observation.descriptors, observation.row);
 }
 
+std::vector<uint8_t> TrackStream::Inliers(const Correspondences& matches,
+                                          const OutlierRejectionOptions& options) const {
+  if (matches.first.empty()) return {};
+  return RejectOutliers(matches, geometry_.focal(), R_current_previous_, options).inliers;
+}
+
 void TrackStream::Continue(size_t track, const Observation& observation) {
   TrackedFeature feature = tracks_[track];
   feature.velocity = (observation.pixel - feature.pixel).cast<double>() / seconds_;
@@ -134,6 +140,16 @@ void TrackStream::Reset() {
   tracks_.clear();
   descriptors_ = Descriptors();
   memory_.Clear();
+}
+
+void FinishPair(const Correspondences& matched, const TrackGeometry& geometry,
+                const OutlierRejectionOptions& options, Stopwatch* stopwatch, PairMatches* pair) {
+  stopwatch->Lap("match");
+  OutlierRejection rejection = RejectOutliers(matched, geometry.focal(), std::nullopt, options);
+  pair->inliers = std::move(rejection.inliers);
+  pair->rejection_model = rejection.model;
+  stopwatch->Lap("reject");
+  pair->stages.insert(pair->stages.end(), stopwatch->stages().begin(), stopwatch->stages().end());
 }
 
 void AppendStages(const std::string& prefix, const FeatureExtractor& extractor, double milliseconds,

@@ -43,6 +43,9 @@ class TrackStream {
   /// Pixels of the current frame's features so far.
   const std::vector<Eigen::Vector2f>& pixels() const { return pixels_; }
 
+  /// Which correspondences with the frame before agree with one motion of the camera.
+  std::vector<uint8_t> Inliers(const Correspondences& matches,
+                               const OutlierRejectionOptions& options) const;
   void Continue(size_t track, const Observation& observation);
   /// The flow of what was found moves the places of what is lost.
   void EndContinuing();
@@ -90,6 +93,23 @@ class TrackStream {
   Descriptors feature_descriptors_;
   std::vector<size_t> order_;
 };
+
+/// Leaves the inliers of `items`, one a row of the correspondences; says how many were not.
+template <typename Item>
+int KeepInliers(const std::vector<uint8_t>& inliers, std::vector<Item>* items) {
+  size_t kept = 0;
+  for (size_t i = 0; i < items->size(); ++i) {
+    if (inliers[i] != 0) (*items)[kept++] = (*items)[i];
+  }
+  const int rejected = static_cast<int>(items->size() - kept);
+  items->resize(kept);
+  return rejected;
+}
+
+/// Ends a pair whose matches are found: says which of them are inliers, and adds the stages "match"
+/// (since `stopwatch` was made) and "reject".
+void FinishPair(const Correspondences& matched, const TrackGeometry& geometry,
+                const OutlierRejectionOptions& options, Stopwatch* stopwatch, PairMatches* pair);
 
 /// The extractor's stages under `prefix`_STAGE, or `milliseconds` under `prefix` where it names
 /// none.

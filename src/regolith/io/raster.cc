@@ -190,17 +190,23 @@ std::string WellKnownText(const OGRSpatialReference* reference) {
   return result;
 }
 
+/// `kind` says what the file should be. Throws InputError.
+Dataset OpenRaster(const std::string& path, const std::string& kind) {
+  if (!std::filesystem::exists(path)) throw InputError(path, "no such file");
+  GDALAllRegister();
+  Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr,
+                                    nullptr, nullptr));
+  if (dataset == nullptr) {
+    throw InputError(path, "is not " + kind + " that GDAL can read (" + LastError() + ")");
+  }
+  return dataset;
+}
+
 }  // namespace
 
 HeightGrid ReadHeights(const std::string& path, const std::optional<RasterCrop>& crop) {
-  if (!std::filesystem::exists(path)) throw InputError(path, "no such file");
   const QuietGdal quiet;
-  GDALAllRegister();
-  const Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr,
-                                          nullptr, nullptr));
-  if (dataset == nullptr) {
-    throw InputError(path, "is not an elevation model that GDAL can read (" + LastError() + ")");
-  }
+  const Dataset dataset = OpenRaster(path, "an elevation model");
   if (dataset->GetRasterCount() < 1) throw InputError(path, "has no raster band");
   const Window window =
       ChooseWindow(path, dataset->GetRasterXSize(), dataset->GetRasterYSize(), crop);
@@ -255,14 +261,8 @@ void WriteHeights(const std::string& path, const HeightGrid& grid) {
 }
 
 TwoBands ReadTwoBands(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw InputError(path, "no such file");
   const QuietGdal quiet;
-  GDALAllRegister();
-  const Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr,
-                                          nullptr, nullptr));
-  if (dataset == nullptr) {
-    throw InputError(path, "is not a raster that GDAL can read (" + LastError() + ")");
-  }
+  const Dataset dataset = OpenRaster(path, "a raster");
   if (dataset->GetRasterCount() != 2) {
     throw InputError(path, Concatenate("has ", dataset->GetRasterCount(),
                                        " raster bands; expected two, x and y"));
