@@ -67,9 +67,11 @@ class Features(ProgramTest):
             self.assertEqual((tracked / name).read_bytes(), (without / name).read_bytes(), name)
 
     def test_status_is_the_same_for_any_number_of_threads(self):
-        one, _, _ = self.run_with("one", "--features", "orb", "--threads", 1)
-        two, _, _ = self.run_with("two", "--features", "orb", "--threads", 2)
-        self.assertEqual((one / "status.csv").read_bytes(), (two / "status.csv").read_bytes())
+        for features in ("orb", "ghost"):
+            with self.subTest(features=features):
+                one, _, _ = self.run_with(f"one_{features}", "--features", features, "--threads", 1)
+                two, _, _ = self.run_with(f"two_{features}", "--features", features, "--threads", 2)
+                self.assertEqual((one / "status.csv").read_bytes(), (two / "status.csv").read_bytes())
 
     def test_a_mask_hides_the_rovers_parts(self):
         rig = self.folder / "rig.yaml"

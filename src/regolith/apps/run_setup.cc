@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/apps/run_setup.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -36,6 +37,11 @@ void PrepareTracking(const RunArguments& arguments, RunSetup* setup) {
                                " tracks no images; name a camera by --set tracked_camera=NAME"
                          : "the rig has no camera `" + pipeline.tracked_camera +
                                "`; name one by --set tracked_camera=NAME");
+  }
+  // --threads bounds the whole run; results do not depend on how many threads infer.
+  if (arguments.threads > 0) {
+    int& threads = pipeline.features.network.threads;
+    threads = std::min(threads, arguments.threads);
   }
   pipeline.feature_model = PrepareModel(&pipeline.features);
   const CameraCalibration& camera = setup->rig.cameras.at(pipeline.tracked_camera);
