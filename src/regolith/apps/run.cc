@@ -108,7 +108,7 @@ std::string UnusedSensors(const RunSetup& setup, const SensorNeeds& needs) {
     const auto& used = needs.cameras;
     if (std::find(used.begin(), used.end(), name) == used.end()) add("camera " + name);
   }
-  if (setup.rig.wheels) add("wheels");
+  if (setup.rig.wheels && !needs.wheels) add("wheels");
   if (unused.empty()) return "";
   return "pipeline " + setup.pipeline.name + " does not use: " + unused;
 }
@@ -142,6 +142,7 @@ int Run(const RunArguments& arguments) {
   ReadOptions read;
   read.imu = system.needs().imu;
   read.lidar = system.needs().lidar;
+  read.wheels = system.needs().wheels;
   read.cameras = system.needs().cameras;
   read.skip_absent_cameras = true;  // the trajectory stands without them
   read.cuts = setup.cuts;

@@ -88,7 +88,8 @@ ReportData ReportOf(const RunSetup& setup, const SlamSystem& system, const RunRe
       record.wall_seconds > 0.0 ? record.recording_seconds / record.wall_seconds : 0.0;
   data.highlights = {{"distance", Text("%.1f m", system.trajectory().Length())},
                      {"real-time factor", Text("%.1f ×", factor)}};
-  for (const StampedPose& pose : system.trajectory().poses()) data.estimate.push_back(pose);
+  const Trajectory trajectory = system.trajectory();
+  for (const StampedPose& pose : trajectory.poses()) data.estimate.push_back(pose);
   if (evaluation && !data.estimate.empty()) {
     AddError(*evaluation, data.estimate.front().time, &data);
   }

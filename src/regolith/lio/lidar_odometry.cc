@@ -75,6 +75,8 @@ std::vector<ScanEstimate> LidarOdometry::AddImu(const ImuSample& sample) {
   return EstimateReady(false);
 }
 
+std::vector<ScanEstimate> LidarOdometry::AddWheels(const WheelOdometry& /*odometry*/) { return {}; }
+
 std::vector<ScanEstimate> LidarOdometry::AddScan(const LidarScan& scan) {
   waiting_.push_back(scan);
   return EstimateReady(false);

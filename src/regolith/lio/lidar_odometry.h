@@ -7,52 +7,32 @@
 #include <string>
 #include <vector>
 
-#include "regolith/cloud/map_point.h"
 #include "regolith/cloud/voxel_map.h"
-#include "regolith/core/stopwatch.h"
 #include "regolith/core/thread_pool.h"
 #include "regolith/geometry/trajectory.h"
 #include "regolith/lio/inertial_filter.h"
 #include "regolith/lio/lidar_odometry_options.h"
-#include "regolith/lio/scan_matcher.h"
-#include "regolith/sensor/imu_sample.h"
-#include "regolith/sensor/lidar_scan.h"
+#include "regolith/lio/scan_odometry.h"
 #include "regolith/sensor/rig_calibration.h"
 
 namespace regolith {
-
-/// What the odometry says of one scan.
-struct ScanEstimate {
-  TimeNs stamp = 0;
-  SE3 T_world_body;                        ///< at the scan's stamp
-  Matrix6d covariance = Matrix6d::Zero();  ///< of the pose at the scan's end
-  std::string leader;                      ///< "lidar+imu", "imu", "lidar", "guess"
-  bool at_rest = false;
-  std::optional<Eigen::Vector3d> gyro_bias;  ///< rad/s; nothing without an IMU
-  ScanMatch match;
-  std::vector<MapPoint> points;  ///< world, all of the scan without motion distortion
-  std::vector<StageTime> stages;
-};
 
 /// Lidar–inertial odometry: the IMU removes the scan's motion distortion and predicts its pose;
 /// planes of the map around correct it; the filter learns velocity, biases and gravity from the
 /// correction. Without an IMU the last motion is the guess. The body is the IMU where there is one;
 /// the world is level there, with its origin at the first IMU pose; else it is the first body pose.
-class LidarOdometry {
+class LidarOdometry : public ScanOdometry {
  public:
   LidarOdometry(const LidarOdometryOptions& options, const RigCalibration& rig,
                 ThreadPool* threads);
 
   /// Measurements in order of their stamps. A scan is estimated as soon as the IMU has reached its
   /// end. Throws InputError where the IMU's units or the rig's gravity cannot be right.
-  std::vector<ScanEstimate> AddImu(const ImuSample& sample);
-  std::vector<ScanEstimate> AddScan(const LidarScan& scan);
-
-  /// Estimates what still waits for IMU samples that never came.
-  std::vector<ScanEstimate> Finish();
-
-  /// What a user should know, a line each: gaps bridged, scans without points, start not at rest.
-  std::vector<std::string> Notices() const;
+  std::vector<ScanEstimate> AddImu(const ImuSample& sample) override;
+  std::vector<ScanEstimate> AddWheels(const WheelOdometry& odometry) override;
+  std::vector<ScanEstimate> AddScan(const LidarScan& scan) override;
+  std::vector<ScanEstimate> Finish() override;
+  std::vector<std::string> Notices() const override;
 
  private:
   struct Gap {

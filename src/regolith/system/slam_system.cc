@@ -3,6 +3,7 @@
 #include "regolith/system/slam_system.h"
 
 #include "regolith/core/error.h"
+#include "regolith/lio/lidar_odometry.h"
 
 namespace regolith {
 namespace {
@@ -20,6 +21,11 @@ SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
   needs.lidar = true;
   if (tracks) needs.cameras.push_back(options.tracked_camera);
   return needs;
+}
+
+std::unique_ptr<ScanOdometry> MakeScanOdometry(const PipelineOptions& options,
+                                               const RigCalibration& rig, ThreadPool* threads) {
+  return std::make_unique<LidarOdometry>(options.lio, rig, threads);
 }
 
 FrameReport ReportOf(const ScanEstimate& estimate) {
@@ -47,7 +53,7 @@ bool TracksImages(const PipelineOptions& options, const RigCalibration& rig) {
 SlamSystem::SlamSystem(const PipelineOptions& options, const RigCalibration& rig,
                        ThreadPool* threads, std::optional<Image> camera_mask)
     : needs_(NeedsOf(options, rig)),
-      lio_(options.lio, WithLidar(options, rig), threads),
+      scan_odometry_(MakeScanOdometry(options, WithLidar(options, rig), threads)),
       map_(options.map) {
   if (!needs_.cameras.empty()) {
     tracker_ = std::make_unique<ImageTracker>(options, rig, std::move(camera_mask));
@@ -57,7 +63,10 @@ SlamSystem::SlamSystem(const PipelineOptions& options, const RigCalibration& rig
 std::vector<FrameReport> SlamSystem::Process(const SensorEvent& event) {
   if (const auto* sample = std::get_if<ImuSample>(&event)) {
     if (tracker_) tracker_->AddImu(*sample);
-    return Report(lio_.AddImu(*sample));
+    return Report(scan_odometry_->AddImu(*sample));
+  }
+  if (const auto* wheels = std::get_if<WheelOdometry>(&event)) {
+    return Report(scan_odometry_->AddWheels(*wheels));
   }
   if (const auto* frame = std::get_if<CameraFrame>(&event)) {
     if (!tracker_ || frame->camera != tracker_->camera()) return {};
@@ -65,12 +74,12 @@ std::vector<FrameReport> SlamSystem::Process(const SensorEvent& event) {
   }
   if (const auto* scan = std::get_if<LidarScan>(&event)) {
     ++scans_seen_;
-    return Report(lio_.AddScan(*scan));
+    return Report(scan_odometry_->AddScan(*scan));
   }
   return {};
 }
 
-std::vector<FrameReport> SlamSystem::Finish() { return Report(lio_.Finish()); }
+std::vector<FrameReport> SlamSystem::Finish() { return Report(scan_odometry_->Finish()); }
 
 std::vector<FrameReport> SlamSystem::Report(std::vector<ScanEstimate> estimates) {
   std::vector<FrameReport> reports;

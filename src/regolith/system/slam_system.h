@@ -10,7 +10,7 @@
 
 #include "regolith/core/thread_pool.h"
 #include "regolith/geometry/trajectory.h"
-#include "regolith/lio/lidar_odometry.h"
+#include "regolith/lio/scan_odometry.h"
 #include "regolith/sensor/rig_calibration.h"
 #include "regolith/sensor/sensor_event.h"
 #include "regolith/system/image_tracker.h"
@@ -23,6 +23,7 @@ namespace regolith {
 struct SensorNeeds {
   bool imu = false;
   bool lidar = false;
+  bool wheels = false;
   std::vector<std::string> cameras;  ///< names in the rig
 };
 
@@ -70,19 +71,19 @@ class SlamSystem {
   /// Poses of the body as first put out, at each frame's stamp.
   const Trajectory& odometry() const { return odometry_; }
   /// The best poses known now.
-  const Trajectory& trajectory() const { return odometry_; }
+  Trajectory trajectory() const { return scan_odometry_->Refined().value_or(odometry_); }
   const std::vector<MapPoint>& map_points() const { return map_.points(); }
 
   size_t scans_seen() const { return scans_seen_; }
   size_t images_seen() const { return images_seen_; }
-  std::vector<std::string> Notices() const { return lio_.Notices(); }
+  std::vector<std::string> Notices() const { return scan_odometry_->Notices(); }
 
  private:
   std::vector<FrameReport> Report(std::vector<ScanEstimate> estimates);
   FrameReport Track(const CameraFrame& frame);
 
   SensorNeeds needs_;
-  LidarOdometry lio_;
+  std::unique_ptr<ScanOdometry> scan_odometry_;
   std::unique_ptr<ImageTracker> tracker_;  ///< null where no images are tracked
   MapBuilder map_;
   Trajectory odometry_;

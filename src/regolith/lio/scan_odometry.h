@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "regolith/cloud/map_point.h"
+#include "regolith/core/stopwatch.h"
+#include "regolith/geometry/trajectory.h"
+#include "regolith/lio/scan_matcher.h"
+#include "regolith/sensor/imu_sample.h"
+#include "regolith/sensor/lidar_scan.h"
+#include "regolith/sensor/wheel_odometry.h"
+
+namespace regolith {
+
+/// What an odometry says of one scan.
+struct ScanEstimate {
+  TimeNs stamp = 0;
+  SE3 T_world_body;                        ///< at the scan's stamp
+  Matrix6d covariance = Matrix6d::Zero();  ///< of the pose at the scan's end
+  std::string leader;                      ///< "lidar+imu", "imu", "lidar", "guess"
+  bool at_rest = false;
+  std::optional<Eigen::Vector3d> gyro_bias;  ///< rad/s; nothing without an IMU
+  ScanMatch match;
+  std::vector<MapPoint> points;  ///< world, all of the scan without motion distortion
+  std::vector<StageTime> stages;
+};
+
+/// Makes a pose of every lidar scan. Measurements come in order of their stamps; each call returns
+/// the scans that it completed, in their order, mostly none.
+class ScanOdometry {
+ public:
+  virtual ~ScanOdometry() = default;
+
+  virtual std::vector<ScanEstimate> AddImu(const ImuSample& sample) = 0;
+  virtual std::vector<ScanEstimate> AddWheels(const WheelOdometry& odometry) = 0;
+  virtual std::vector<ScanEstimate> AddScan(const LidarScan& scan) = 0;
+
+  /// Estimates what still waits for measurements that never came.
+  virtual std::vector<ScanEstimate> Finish() = 0;
+
+  /// The best poses known now, at the stamps of the estimates given out so far. Nothing where these
+  /// are the estimates themselves.
+  virtual std::optional<Trajectory> Refined() const { return std::nullopt; }
+
+  /// What a user should know, a line each: gaps bridged, scans without points.
+  virtual std::vector<std::string> Notices() const = 0;
+};
+
+}  // namespace regolith
