@@ -3,6 +3,7 @@
 #include "regolith/lio/lidar_odometry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "regolith/cloud/downsample.h"
@@ -81,6 +82,13 @@ std::vector<ScanEstimate> LidarOdometry::AddWheels(const WheelOdometry& odometry
 
 std::vector<ScanEstimate> LidarOdometry::AddScan(const LidarScan& scan) {
   waiting_.push_back(scan);
+  std::vector<LidarPoint>& points = waiting_.back().points;
+  const auto finite = [](const LidarPoint& point) {
+    return point.position.allFinite() && std::isfinite(point.time);
+  };
+  const auto end = std::stable_partition(points.begin(), points.end(), finite);
+  invalid_points_ += static_cast<size_t>(points.end() - end);
+  points.erase(end, points.end());
   return EstimateReady(false);
 }
 
@@ -107,8 +115,8 @@ std::vector<ScanEstimate> LidarOdometry::EstimateReady(bool all) {
     if (is_waiting && inertial_->has_samples() && !all) break;
     const LidarScan scan = std::move(waiting_.front());
     waiting_.pop_front();
-    if (is_waiting || (inertial_ && scans_ == 0 &&
-                       IntervalOf(scan).end < inertial_->filter().state().time)) {
+    if (is_waiting ||
+        (inertial_ && scans_ == 0 && IntervalOf(scan).end < inertial_->filter().state().time)) {
       ++early_scans_;
       continue;
     }
@@ -130,8 +138,8 @@ ScanMatch LidarOdometry::Match(const std::vector<Eigen::Vector3d>& points_body,
   const size_t count = std::min(kept.size(), static_cast<size_t>(options_.max_points));
   std::vector<Eigen::Vector3d> thinned(count);
   for (size_t i = 0; i < count; ++i) thinned[i] = points_body[kept[i * kept.size() / count]];
-  ScanMatch match = MatchScan(thinned, guess.T_world_body, guess.covariance, maps_,
-                              options_.matcher, threads_);
+  ScanMatch match =
+      MatchScan(thinned, guess.T_world_body, guess.covariance, maps_, options_.matcher, threads_);
   if (!match.used_scan && scans_ > 0 && !points_body.empty()) ++unmatched_scans_;
   return match;
 }
@@ -244,9 +252,10 @@ ScanEstimate LidarOdometry::EstimateWithoutImu(const LidarScan& scan) {
         LogSe3(last_->T_world_body.Inverse() * pose) / SecondsBetween(last_->time, middle);
   }
   last_ = StampedPose{middle, pose};
-  const auto passed = std::find_if(wheels_.begin(), wheels_.end(), [&](const WheelOdometry& sample) {
-    return sample.time >= AddSeconds(middle, -kMostWaiting);
-  });
+  const auto passed =
+      std::find_if(wheels_.begin(), wheels_.end(), [&](const WheelOdometry& sample) {
+        return sample.time >= AddSeconds(middle, -kMostWaiting);
+      });
   wheels_.erase(wheels_.begin(), passed);
   estimate.T_world_body = pose * ExpSe3(velocity_body_ * SecondsBetween(middle, scan.stamp));
   AddDrift(pose, &estimate);
@@ -264,6 +273,7 @@ std::vector<std::string> LidarOdometry::Notices() const {
     if (count > 0) notices.push_back(Concatenate(count, what));
   };
   add(early_scans_, " scans came before the first IMU sample and have no pose");
+  add(invalid_points_, " points were not finite and were left out");
   add(empty_scans_, " scans had no points");
   add(unmatched_scans_, " scans met too few planes of the map; the prediction stands for them");
   add(repeated_scans_, " scans were not later than the one before and were left out");

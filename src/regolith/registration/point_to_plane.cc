@@ -16,6 +16,9 @@ namespace {
 
 constexpr size_t kChunkSize = 128;
 constexpr size_t kSumChunkSize = 512;
+// A piece of one ring is as wide as the range's noise makes it, and that lies along the beam: the
+// plane through it leans towards the sensor.
+constexpr double kWidthSigmas = 3.0;
 // rad; beyond it the small-angle model says nothing.
 constexpr double kMostNormalError = 1.0;
 // Makes the median of |r| a standard deviation for Gaussian r.
@@ -26,11 +29,12 @@ constexpr double kKernelSigmas = 3.0;
 bool IsPlane(const PlaneFit& plane, const PointToPlaneOptions& options) {
   const Eigen::Vector3d spread = plane.variances.cwiseSqrt();
   return spread[0] <= options.max_thickness_ratio * spread[1] &&
-         spread[1] >= options.min_width_ratio * spread[2];
+         spread[1] >= options.min_width_ratio * spread[2] &&
+         spread[1] >= kWidthSigmas * options.range_sigma;
 }
 
-// The error of a fitted normal along an axis within the plane: that of a regression's slope. Over the
-// neighbourhoods of a plane that pass IsPlane, noise and information made of it are then equal
+// The error of a fitted normal along an axis within the plane: that of a regression's slope. Over
+// the neighbourhoods of a plane that pass IsPlane, noise and information made of it are then equal
 // (tests); with the unbiased variance of the residuals noise would be half as much again.
 Eigen::Vector3d NormalError(const PlaneFit& plane, int axis, int count) {
   const double slope =
@@ -156,11 +160,11 @@ PointToPlaneSystem LinearizePointToPlane(Span<const Eigen::Vector3d> points_body
   system.matches = static_cast<int>(magnitudes.size());
   system.scale = RobustScale(std::move(magnitudes), options.range_sigma);
   std::vector<PartialSystem> sums(ChunkCount(points_body.size(), kSumChunkSize));
-  threads->ParallelFor(points_body.size(), kSumChunkSize,
-                       [&](size_t begin, size_t end, size_t chunk) {
-                         sums[chunk] = SumOver(begin, end, points_body, planes, residuals,
-                                               T_map_body, system.scale, options);
-                       });
+  threads->ParallelFor(
+      points_body.size(), kSumChunkSize, [&](size_t begin, size_t end, size_t chunk) {
+        sums[chunk] =
+            SumOver(begin, end, points_body, planes, residuals, T_map_body, system.scale, options);
+      });
   for (const PartialSystem& sum : sums) {
     system.information += sum.information;
     system.noise += sum.noise;

@@ -3,11 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_set>
 #include <vector>
 
 #include "regolith/cloud/map_point.h"
-#include "regolith/cloud/voxel_key.h"
+#include "regolith/cloud/voxel_table.h"
 #include "regolith/core/span.h"
 
 namespace regolith {
@@ -32,12 +31,13 @@ class MapBuilder {
   double voxel_size() const { return voxel_size_; }
 
  private:
+  VoxelKey KeyOfPoint(const MapPoint& point) const;
   void Coarsen();
 
   MapBuilderOptions options_;
   double voxel_size_;
   std::vector<MapPoint> points_;
-  std::unordered_set<VoxelKey> occupied_;
+  VoxelTable occupied_;
 };
 
 }  // namespace regolith
