@@ -38,12 +38,12 @@ void LidarOdometryOptions::Check() const {
   matcher.Check();
   rest.Check();
   wheel_motion.Check();
+  drift.Check();
   if (!lidar && !imu) throw InputError("lio", "lidar and imu are both off; expected one of them");
   REGOLITH_CHECK(scan_voxel_size > 0.0, "scan_voxel_size=", scan_voxel_size);
   REGOLITH_CHECK(max_points >= 100, "max_points=", max_points);
   REGOLITH_CHECK(map_levels >= 1 && map_levels <= 4, "map_levels=", map_levels);
   REGOLITH_CHECK(map_growth > 1.0, "map_growth=", map_growth);
-  REGOLITH_CHECK(map_renewal_length > 0.0, "map_renewal_length=", map_renewal_length);
   REGOLITH_CHECK(initialization_window >= rest.min_duration,
                  "initialization_window=", initialization_window);
   REGOLITH_CHECK(rest_window >= rest.min_duration, "rest_window=", rest_window);
@@ -52,7 +52,7 @@ void LidarOdometryOptions::Check() const {
 
 LidarOdometry::LidarOdometry(const LidarOdometryOptions& options, const RigCalibration& rig,
                              ThreadPool* threads)
-    : options_(options), threads_(threads), drift_(options.map_renewal_length) {
+    : options_(options), threads_(threads), drift_(options.drift) {
   options.Check();
   VoxelMapOptions level = options.map;
   for (int i = 0; i < options.map_levels; ++i, level.voxel_size *= options.map_growth) {
