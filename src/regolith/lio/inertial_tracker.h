@@ -41,7 +41,8 @@ class InertialTracker {
   /// absorbed where they were measured.
   std::vector<StampedPose> PropagateTo(TimeNs end);
 
-  /// Whether the rover stands: the last samples are still, and the filter says so too. Absorbs that.
+  /// Whether the rover stands: the last samples are still, and the filter says so too. Absorbs
+  /// that.
   bool AbsorbRest();
 
   /// Drops samples that lie behind.

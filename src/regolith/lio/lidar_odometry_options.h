@@ -19,8 +19,8 @@ struct LidarOdometryOptions {
   int map_levels = 2;
   double map_growth = 3.0;
   ScanMatcherOptions matcher;
-  double scan_voxel_size = 0.35;       ///< m, one point a voxel is matched
-  int max_points = 6000;               ///< more than these are thinned further
+  double scan_voxel_size = 0.35;  ///< m, one point a voxel is matched
+  int max_points = 6000;          ///< more than these are thinned further
   MapDriftOptions drift;
   double initialization_window = 1.0;  ///< s of IMU samples that start the filter
   RestDetectionOptions rest;
