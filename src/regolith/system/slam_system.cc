@@ -3,6 +3,7 @@
 #include "regolith/system/slam_system.h"
 
 #include "regolith/core/error.h"
+#include "regolith/lio/lego_loam.h"
 #include "regolith/lio/lidar_odometry.h"
 
 namespace regolith {
@@ -17,7 +18,7 @@ const RigCalibration& WithLidar(const PipelineOptions& options, const RigCalibra
 SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
   SensorNeeds needs;
   const bool tracks = TracksImages(options, rig);
-  needs.imu = options.lio.imu && rig.imu.has_value();
+  needs.imu = options.odometry == OdometryKind::kLio && options.lio.imu && rig.imu.has_value();
   needs.lidar = true;
   if (tracks) needs.cameras.push_back(options.tracked_camera);
   return needs;
@@ -25,6 +26,9 @@ SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
 
 std::unique_ptr<ScanOdometry> MakeScanOdometry(const PipelineOptions& options,
                                                const RigCalibration& rig, ThreadPool* threads) {
+  if (options.odometry == OdometryKind::kLegoLoam) {
+    return std::make_unique<LegoLoam>(options.lego_loam, rig, threads);
+  }
   return std::make_unique<LidarOdometry>(options.lio, rig, threads);
 }
 
