@@ -108,9 +108,10 @@ nlohmann::ordered_json SummaryOf(const RunSetup& setup, const SlamSystem& system
   summary["peak_rss_mb"] = record.peak_rss_mb;
   summary["frames"] = system.images_seen();
   summary["scans"] = system.scans_seen();
-  summary["keyframes"] = 0;
-  summary["loops_accepted"] = 0;
-  summary["loops_rejected"] = 0;
+  const KeyframeCounts counts = system.keyframe_counts();
+  summary["keyframes"] = counts.keyframes;
+  summary["loops_accepted"] = counts.loops_accepted;
+  summary["loops_rejected"] = counts.loops_rejected;
   summary["coverage"] = system.scans_seen() == 0 ? 0.0
                                                  : static_cast<double>(system.trajectory().size()) /
                                                        static_cast<double>(system.scans_seen());

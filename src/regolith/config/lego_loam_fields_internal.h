@@ -86,6 +86,7 @@ void Fields(Archive& archive, KeyframeGraphOptions& keyframes) {
   archive("submap_keyframes", keyframes.submap_keyframes);
   archive("min_overlap", keyframes.min_overlap);
   archive("max_scale", keyframes.max_scale);
+  archive("max_correction", keyframes.max_correction);
   archive("step_rotation_sigma", keyframes.step_rotation_sigma);
   archive("step_position_sigma", keyframes.step_position_sigma);
   archive("loop_rotation_sigma", keyframes.loop_rotation_sigma);

@@ -20,6 +20,7 @@ void KeyframeGraphOptions::Check() const {
   REGOLITH_CHECK(submap_keyframes >= 0, "submap_keyframes=", submap_keyframes);
   REGOLITH_CHECK(min_overlap > 0.0 && min_overlap <= 1.0, "min_overlap=", min_overlap);
   REGOLITH_CHECK(max_scale > 0.0, "max_scale=", max_scale);
+  REGOLITH_CHECK(max_correction > 0.0, "max_correction=", max_correction);
   for (const double sigma :
        {step_rotation_sigma, step_position_sigma, loop_rotation_sigma, loop_position_sigma}) {
     REGOLITH_CHECK(sigma > 0.0, "sigma=", sigma);
@@ -78,8 +79,9 @@ std::optional<SE3> KeyframeGraph::MatchOld(size_t old, ThreadPool* threads) cons
   const MapMatch match = submap.Match(newest.cloud, newest.T_map_lidar, threads);
   const auto features =
       static_cast<double>(newest.cloud.edges.size() + newest.cloud.planars.size());
+  const double correction = (match.T_map_lidar.translation - newest.T_map_lidar.translation).norm();
   const bool is_good = match.used_scan && match.degenerate_directions == 0 &&
-                       match.scale <= options_.max_scale &&
+                       match.scale <= options_.max_scale && correction <= options_.max_correction &&
                        match.system.matches >= options_.min_overlap * features;
   if (!is_good) return std::nullopt;
   return match.T_map_lidar;

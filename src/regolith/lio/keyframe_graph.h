@@ -29,8 +29,8 @@ class KeyframeGraph {
   KeyframeGraph(const KeyframeGraphOptions& options, const FeatureMapOptions& map);
 
   const std::vector<Keyframe>& keyframes() const { return keyframes_; }
-  int loops_accepted() const { return loops_accepted_; }
-  int loops_rejected() const { return loops_rejected_; }
+  size_t loops_accepted() const { return loops_accepted_; }
+  size_t loops_rejected() const { return loops_rejected_; }
 
   /// Whether a scan at this pose is far enough from the last keyframe to be one.
   bool IsNew(const SE3& T_map_lidar) const;
@@ -48,8 +48,8 @@ class KeyframeGraph {
   std::vector<Keyframe> keyframes_;
   std::vector<PoseGraphEdge> edges_;
   size_t last_attempt_ = 0;
-  int loops_accepted_ = 0;
-  int loops_rejected_ = 0;
+  size_t loops_accepted_ = 0;
+  size_t loops_rejected_ = 0;
 };
 
 }  // namespace regolith

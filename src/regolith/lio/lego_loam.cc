@@ -210,6 +210,10 @@ std::optional<Trajectory> LegoLoam::Refined() const {
   return trajectory;
 }
 
+KeyframeCounts LegoLoam::Counts() const {
+  return {graph_.keyframes().size(), graph_.loops_accepted(), graph_.loops_rejected()};
+}
+
 std::vector<std::string> LegoLoam::Notices() const {
   std::vector<std::string> notices;
   const auto add = [&](size_t count, const std::string& what) {

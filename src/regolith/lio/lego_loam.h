@@ -30,6 +30,7 @@ class LegoLoam final : public ScanOdometry {
   std::vector<ScanEstimate> AddScan(const LidarScan& scan) override;
   std::vector<ScanEstimate> Finish() override;
   std::optional<Trajectory> Refined() const override;
+  KeyframeCounts Counts() const override;
   std::vector<std::string> Notices() const override;
 
  private:

@@ -76,6 +76,7 @@ class SlamSystem {
 
   size_t scans_seen() const { return scans_seen_; }
   size_t images_seen() const { return images_seen_; }
+  KeyframeCounts keyframe_counts() const { return scan_odometry_->Counts(); }
   std::vector<std::string> Notices() const { return scan_odometry_->Notices(); }
 
  private:
