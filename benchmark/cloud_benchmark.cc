@@ -13,7 +13,7 @@ void VoxelMapAddToEmpty(benchmark::State& state) {
   const auto points = SyntheticMap(1);
   for (auto _ : state) {
     VoxelMap map{VoxelMapOptions()};
-    map.Add(points);
+    map.Add(points, Eigen::Vector3d::Zero());
     benchmark::DoNotOptimize(map.voxel_count());
   }
   state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(points.size()));
@@ -25,8 +25,8 @@ void VoxelMapAddToKnown(benchmark::State& state) {
   const auto known = SyntheticMap(20);
   const auto points = SyntheticMap(1);
   VoxelMap map{VoxelMapOptions()};
-  map.Add(known);
-  for (auto _ : state) map.Add(points);
+  map.Add(known, Eigen::Vector3d::Zero());
+  for (auto _ : state) map.Add(points, Eigen::Vector3d::Zero());
   state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(points.size()));
 }
 BENCHMARK(VoxelMapAddToKnown)->Unit(benchmark::kMillisecond);
@@ -35,7 +35,7 @@ void VoxelMapNearest(benchmark::State& state) {
   const auto known = SyntheticMap(20);
   const auto queries = SyntheticMap(1);
   VoxelMap map{VoxelMapOptions()};
-  map.Add(known);
+  map.Add(known, Eigen::Vector3d::Zero());
   for (auto _ : state) {
     for (const Eigen::Vector3d& query : queries) {
       benchmark::DoNotOptimize(map.Nearest(query, 8, map.voxel_size()));

@@ -12,7 +12,7 @@ std::vector<VoxelMap> Maps() {
   std::vector<VoxelMap> maps;
   VoxelMapOptions options;
   for (int level = 0; level < 2; ++level, options.voxel_size *= 3.0) {
-    maps.emplace_back(options).Add(SyntheticMap(10));
+    maps.emplace_back(options).Add(SyntheticMap(10), Eigen::Vector3d::Zero());
   }
   return maps;
 }
@@ -23,8 +23,9 @@ void SearchPlanes(benchmark::State& state) {
   const auto points = Positions(SyntheticScan(0));
   ThreadPool threads(static_cast<int>(state.range(0)));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        FindPlanes(points, SyntheticPose(0.0), maps, PointToPlaneOptions(), &threads));
+    std::vector<PlaneMatch> planes;
+    FindPlanes(points, SyntheticPose(0.0), maps, PointToPlaneOptions(), &threads, &planes);
+    benchmark::DoNotOptimize(planes);
   }
   state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(points.size()));
 }
@@ -35,9 +36,11 @@ void Linearise(benchmark::State& state) {
   const auto points = Positions(SyntheticScan(0));
   const SE3 pose = SyntheticPose(0.0);
   ThreadPool threads(1);
-  const auto planes = FindPlanes(points, pose, maps, PointToPlaneOptions(), &threads);
+  std::vector<PlaneMatch> planes;
+  FindPlanes(points, pose, maps, PointToPlaneOptions(), &threads, &planes);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(LinearizePointToPlane(points, planes, pose, PointToPlaneOptions()));
+    benchmark::DoNotOptimize(
+        LinearizePointToPlane(points, planes, pose, PointToPlaneOptions(), &threads));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(points.size()));
 }

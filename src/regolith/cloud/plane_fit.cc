@@ -22,7 +22,8 @@ PlaneFit FitPlane(Span<const Eigen::Vector3d> points) {
   covariance /= count;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(covariance);
-  fit.normal = solver.eigenvectors().col(0);
+  fit.axes = solver.eigenvectors();
+  fit.normal = fit.axes.col(0);
   fit.variances = solver.eigenvalues().cwiseMax(0.0);
   return fit;
 }

@@ -12,7 +12,9 @@ namespace regolith {
 struct PlaneFit {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit; its sign is arbitrary
-  /// Variances along the principal axes, ascending, m²: across the plane, then the two within it.
+  /// Principal axes as columns: the normal, then the two within the plane.
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  /// Variances along these axes, ascending, m².
   Eigen::Vector3d variances = Eigen::Vector3d::Zero();
 };
 

@@ -30,42 +30,47 @@ constexpr std::array<std::array<int, 3>, 27> NeighbourOffsets() {
 
 constexpr auto kNeighbourOffsets = NeighbourOffsets();
 
-/// The nearest points so far, sorted by distance.
+/// The nearest points so far, sorted by distance. A point is a voxel's number and its place there.
 class NearestList {
  public:
+  struct Entry {
+    float squared_distance;
+    uint32_t voxel;
+    uint32_t place;
+  };
+
   NearestList(int count, float worst) : count_(static_cast<size_t>(count)), worst_(worst) {}
 
   float worst() const { return worst_; }
+  size_t size() const { return size_; }
+  const Entry& operator[](size_t i) const { return entries_[i]; }
 
-  void Offer(float squared_distance, const Eigen::Vector3f* point) {
+  void Offer(float squared_distance, uint32_t voxel, uint32_t index) {
     if (squared_distance >= worst_) return;
     size_t place = size_ < count_ ? size_++ : size_ - 1;
-    for (; place > 0 && distances_[place - 1] > squared_distance; --place) {
-      distances_[place] = distances_[place - 1];
-      points_[place] = points_[place - 1];
+    for (; place > 0 && entries_[place - 1].squared_distance > squared_distance; --place) {
+      entries_[place] = entries_[place - 1];
     }
-    distances_[place] = squared_distance;
-    points_[place] = point;
-    if (size_ == count_) worst_ = distances_[count_ - 1];
-  }
-
-  Neighbours Result() const {
-    Neighbours neighbours;
-    neighbours.count = static_cast<int>(size_);
-    for (size_t i = 0; i < size_; ++i) {
-      neighbours.points[i] = points_[i]->cast<double>();
-      neighbours.squared_distances[i] = static_cast<double>(distances_[i]);
-    }
-    return neighbours;
+    entries_[place] = {squared_distance, voxel, index};
+    if (size_ == count_) worst_ = entries_[count_ - 1].squared_distance;
   }
 
  private:
   size_t count_;
   float worst_;
   size_t size_ = 0;
-  std::array<float, Neighbours::kMost> distances_;
-  std::array<const Eigen::Vector3f*, Neighbours::kMost> points_;
+  std::array<Entry, Neighbours::kMost> entries_;
 };
+
+// Points that one step of the search compares at once.
+constexpr size_t kLane = 8;
+using Lane = Eigen::Array<float, kLane, 1>;
+using LaneMap = Eigen::Map<const Lane>;
+
+// Shares of the map that ForgetSomeFarFrom looks at, one a call.
+constexpr size_t kShares = 16;
+// What the radius is multiplied by where memory is short.
+constexpr double kShrinkage = 0.9;
 
 }  // namespace
 
@@ -74,60 +79,70 @@ void VoxelMapOptions::Check() const {
   REGOLITH_CHECK(max_points_per_voxel > 0 && max_points_per_voxel < 1000,
                  "max_points_per_voxel=", max_points_per_voxel);
   REGOLITH_CHECK(radius > voxel_size, "radius=", radius);
+  REGOLITH_CHECK(max_voxels >= 1000 && max_voxels <= 100000000, "max_voxels=", max_voxels);
 }
 
 VoxelMap::VoxelMap(const VoxelMapOptions& options)
-    : options_(options), inverse_size_(1.0 / options.voxel_size) {
+    : options_(options),
+      inverse_size_(1.0 / options.voxel_size),
+      radius_(options.radius),
+      lanes_((static_cast<size_t>(options.max_points_per_voxel) + kLane - 1) / kLane * kLane) {
   options.Check();
   // As many points as fit cover a square of the voxel's face evenly: surfaces, not volumes, are
   // mapped.
   squared_spacing_ =
       static_cast<float>(options.voxel_size * options.voxel_size / options.max_points_per_voxel);
-  Rehash(1024);
+  const auto most = static_cast<size_t>(options.max_voxels);
+  size_t slots = 1024;
+  while (slots < 2 * most) slots *= 2;
+  slots_.assign(slots, kEmptySlot);
+  keys_.reserve(most);
+  counts_.reserve(most);
 }
 
-void VoxelMap::Add(Span<const Eigen::Vector3d> points) {
+void VoxelMap::Add(Span<const Eigen::Vector3d> points, const Eigen::Vector3d& centre) {
   const auto most = static_cast<size_t>(options_.max_points_per_voxel);
   for (const Eigen::Vector3d& point : points) {
-    const uint32_t voxel = FindOrInsert(KeyOf(point, inverse_size_));
-    if (counts_[voxel] >= most) continue;
+    if ((point - centre).squaredNorm() > radius_ * radius_) continue;
+    const uint32_t voxel = FindOrInsert(KeyOf(point, inverse_size_), centre);
+    const size_t count = counts_[voxel];
+    if (count >= most) continue;
     const Eigen::Vector3f added = point.cast<float>();
-    Eigen::Vector3f* const begin = points_.data() + voxel * most;
-    Eigen::Vector3f* const end = begin + counts_[voxel];
-    const bool crowded = std::any_of(begin, end, [&](const Eigen::Vector3f& other) {
-      return (other - added).squaredNorm() < squared_spacing_;
-    });
+    float* const x = Coordinates(voxel);
+    float* const y = x + lanes_;
+    float* const z = y + lanes_;
+    bool crowded = false;
+    for (size_t i = 0; i < count && !crowded; ++i) {
+      crowded = (Eigen::Vector3f(x[i], y[i], z[i]) - added).squaredNorm() < squared_spacing_;
+    }
     if (crowded) continue;
-    *end = added;
+    x[count] = added.x();
+    y[count] = added.y();
+    z[count] = added.z();
     ++counts_[voxel];
   }
 }
 
-void VoxelMap::RemoveFarFrom(const Eigen::Vector3d& centre) {
-  const auto most = static_cast<size_t>(options_.max_points_per_voxel);
+void VoxelMap::ForgetSomeFarFrom(const Eigen::Vector3d& centre) {
+  const size_t share = keys_.size() / kShares + 1;
+  const size_t end = std::min(keys_.size(), next_to_look_at_ + share);
+  Forget(next_to_look_at_, end, centre);
+  next_to_look_at_ = end == keys_.size() ? 0 : end;
+}
+
+void VoxelMap::ForgetFarFrom(const Eigen::Vector3d& centre) { Forget(0, keys_.size(), centre); }
+
+void VoxelMap::Forget(size_t begin, size_t end, const Eigen::Vector3d& centre) {
   const Eigen::Vector3f near = centre.cast<float>();
-  const auto squared_radius = static_cast<float>(options_.radius * options_.radius);
-  size_t kept = 0;
-  for (size_t voxel = 0; voxel < keys_.size(); ++voxel) {
-    if ((points_[voxel * most] - near).squaredNorm() > squared_radius) continue;
-    if (kept != voxel) {
-      keys_[kept] = keys_[voxel];
-      counts_[kept] = counts_[voxel];
-      std::copy_n(points_.begin() + static_cast<ptrdiff_t>(voxel * most), counts_[voxel],
-                  points_.begin() + static_cast<ptrdiff_t>(kept * most));
-    }
-    ++kept;
+  const auto squared_radius = static_cast<float>(radius_ * radius_);
+  for (size_t voxel = begin; voxel < end; ++voxel) {
+    if (counts_[voxel] == 0) continue;
+    if ((PointAt(voxel, 0) - near).squaredNorm() > squared_radius) Erase(voxel);
   }
-  if (kept == keys_.size()) return;
-  keys_.resize(kept);
-  counts_.resize(kept);
-  points_.resize(kept * most);
-  Rehash(slots_.size());
 }
 
 Neighbours VoxelMap::Nearest(const Eigen::Vector3d& query, int count, double max_distance) const {
   REGOLITH_CHECK(count > 0 && count <= Neighbours::kMost, "count=", count);
-  const auto most = static_cast<size_t>(options_.max_points_per_voxel);
   const auto centre = VoxelOf(query, inverse_size_);
   const Eigen::Vector3f query_float = query.cast<float>();
   // Distance to the nearer and to the farther neighbouring voxel along each axis, squared.
@@ -148,23 +163,40 @@ Neighbours VoxelMap::Nearest(const Eigen::Vector3d& query, int count, double max
     if (gap >= nearest.worst()) continue;
     const uint32_t* const voxel = Find(PackVoxel(centre.x() + x, centre.y() + y, centre.z() + z));
     if (voxel == nullptr) continue;
-    const Eigen::Vector3f* const begin = points_.data() + *voxel * most;
-    for (const Eigen::Vector3f* point = begin; point != begin + counts_[*voxel]; ++point) {
-      nearest.Offer((*point - query_float).squaredNorm(), point);
+    const float* const coordinates = Coordinates(*voxel);
+    const size_t held = counts_[*voxel];
+    for (size_t first = 0; first < held; first += kLane) {
+      const float* const lane = coordinates + first;
+      const Lane squared = (LaneMap(lane) - query_float.x()).square() +
+                           (LaneMap(lane + lanes_) - query_float.y()).square() +
+                           (LaneMap(lane + 2 * lanes_) - query_float.z()).square();
+      const size_t filled = std::min(kLane, held - first);
+      for (size_t i = 0; i < filled; ++i) {
+        nearest.Offer(squared[static_cast<Eigen::Index>(i)], *voxel,
+                      static_cast<uint32_t>(first + i));
+      }
     }
   }
-  return nearest.Result();
+  Neighbours neighbours;
+  neighbours.count = static_cast<int>(nearest.size());
+  for (size_t i = 0; i < nearest.size(); ++i) {
+    neighbours.points[i] = PointAt(nearest[i].voxel, nearest[i].place).cast<double>();
+    neighbours.squared_distances[i] = static_cast<double>(nearest[i].squared_distance);
+  }
+  return neighbours;
 }
 
 std::vector<Eigen::Vector3d> VoxelMap::Points() const {
-  const auto most = static_cast<size_t>(options_.max_points_per_voxel);
   std::vector<Eigen::Vector3d> all;
   for (size_t voxel = 0; voxel < keys_.size(); ++voxel) {
-    for (size_t i = 0; i < counts_[voxel]; ++i) {
-      all.push_back(points_[voxel * most + i].cast<double>());
-    }
+    for (size_t i = 0; i < counts_[voxel]; ++i) all.push_back(PointAt(voxel, i).cast<double>());
   }
   return all;
+}
+
+Eigen::Vector3f VoxelMap::PointAt(size_t voxel, size_t index) const {
+  const float* const x = Coordinates(voxel) + index;
+  return {x[0], x[lanes_], x[2 * lanes_]};
 }
 
 size_t VoxelMap::SlotOf(VoxelKey key) const {
@@ -179,23 +211,54 @@ const uint32_t* VoxelMap::Find(VoxelKey key) const {
   return slot == kEmptySlot ? nullptr : &slot;
 }
 
-uint32_t VoxelMap::FindOrInsert(VoxelKey key) {
-  if (2 * (keys_.size() + 1) > slots_.size()) Rehash(2 * slots_.size());
-  uint32_t& slot = slots_[SlotOf(key)];
-  if (slot == kEmptySlot) {
-    slot = static_cast<uint32_t>(keys_.size());
-    keys_.push_back(key);
-    counts_.push_back(0);
-    points_.resize(points_.size() + static_cast<size_t>(options_.max_points_per_voxel));
+uint32_t VoxelMap::FindOrInsert(VoxelKey key, const Eigen::Vector3d& centre) {
+  size_t slot = SlotOf(key);
+  if (slots_[slot] != kEmptySlot) return slots_[slot];
+  if (voxel_count() == static_cast<size_t>(options_.max_voxels)) {
+    MakeRoom(centre);
+    slot = SlotOf(key);
   }
-  return slot;
+  slots_[slot] = NewVoxel(key);
+  return slots_[slot];
 }
 
-void VoxelMap::Rehash(size_t slots) {
-  slots_.assign(slots, kEmptySlot);
-  for (size_t voxel = 0; voxel < keys_.size(); ++voxel) {
-    slots_[SlotOf(keys_[voxel])] = static_cast<uint32_t>(voxel);
+uint32_t VoxelMap::NewVoxel(VoxelKey key) {
+  if (!free_.empty()) {
+    const uint32_t voxel = free_.back();
+    free_.pop_back();
+    keys_[voxel] = key;
+    return voxel;
   }
+  const auto voxel = static_cast<uint32_t>(keys_.size());
+  if (voxel / kVoxelsPerPage == pages_.size()) {
+    pages_.push_back(std::make_unique<float[]>(kVoxelsPerPage * 3 * lanes_));
+  }
+  keys_.push_back(key);
+  counts_.push_back(0);
+  return voxel;
+}
+
+void VoxelMap::MakeRoom(const Eigen::Vector3d& centre) {
+  // A point that is about to be added has a voxel without points yet; it is not among the counted.
+  while (voxel_count() > static_cast<size_t>(0.95 * options_.max_voxels)) {
+    radius_ *= kShrinkage;
+    ForgetFarFrom(centre);
+  }
+}
+
+void VoxelMap::Erase(size_t voxel) {
+  // What follows in the run of slots moves up where its own place allows (Knuth 1998, 6.4, R).
+  const size_t mask = slots_.size() - 1;
+  size_t hole = SlotOf(keys_[voxel]);
+  for (size_t slot = (hole + 1) & mask; slots_[slot] != kEmptySlot; slot = (slot + 1) & mask) {
+    const size_t home = Scramble(keys_[slots_[slot]]) & mask;
+    if (((slot - home) & mask) < ((slot - hole) & mask)) continue;
+    slots_[hole] = slots_[slot];
+    hole = slot;
+  }
+  slots_[hole] = kEmptySlot;
+  counts_[voxel] = 0;
+  free_.push_back(static_cast<uint32_t>(voxel));
 }
 
 }  // namespace regolith

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,43 +26,64 @@ struct Neighbours {
 };
 
 /// Points around the rover in a hash of cubic voxels, each of which keeps a few points that are
-/// well apart (after Vizzo et al. 2023). Insertion and search are constant-time; the result depends
-/// on the order of insertion only.
+/// well apart (after Vizzo et al. 2023). Memory is fixed, insertion and search are constant-time
+/// and never move what is there; the result depends on the order of the calls only.
 class VoxelMap {
  public:
   explicit VoxelMap(const VoxelMapOptions& options);
 
-  /// Adds points (m, map frame) where their voxel has room and none is near.
-  void Add(Span<const Eigen::Vector3d> points);
+  /// Adds points (m, map frame) within the radius of `centre`, the sensor, where their voxel has
+  /// room and none is near.
+  void Add(Span<const Eigen::Vector3d> points, const Eigen::Vector3d& centre);
 
-  /// Forgets voxels farther than the radius from `centre`.
-  void RemoveFarFrom(const Eigen::Vector3d& centre);
+  /// Looks at a sixteenth of the voxels, in turn, and forgets those farther than the radius from
+  /// `centre`: called once a scan it costs the same each time.
+  void ForgetSomeFarFrom(const Eigen::Vector3d& centre);
+  /// Forgets all voxels farther than the radius from `centre`.
+  void ForgetFarFrom(const Eigen::Vector3d& centre);
 
   /// Up to `count` nearest points within `max_distance` (m, at most one voxel edge) of `query`.
   Neighbours Nearest(const Eigen::Vector3d& query, int count, double max_distance) const;
 
   double voxel_size() const { return options_.voxel_size; }
-  bool empty() const { return keys_.empty(); }
-  size_t voxel_count() const { return keys_.size(); }
-  /// All points, voxel by voxel in the order in which the voxels appeared.
+  double radius() const { return radius_; }  ///< m; less than the option once memory was short
+  bool empty() const { return voxel_count() == 0; }
+  size_t voxel_count() const { return keys_.size() - free_.size(); }
+  /// All points, voxel by voxel.
   std::vector<Eigen::Vector3d> Points() const;
 
  private:
   static constexpr uint32_t kEmptySlot = 0xffffffffU;
+  static constexpr size_t kVoxelsPerPage = 256;
 
+  /// A voxel's coordinates: lanes_ of x, then as many of y and of z.
+  float* Coordinates(size_t voxel) {
+    return pages_[voxel / kVoxelsPerPage].get() + (voxel % kVoxelsPerPage) * 3 * lanes_;
+  }
+  const float* Coordinates(size_t voxel) const {
+    return const_cast<VoxelMap*>(this)->Coordinates(voxel);
+  }
+  Eigen::Vector3f PointAt(size_t voxel, size_t index) const;
   const uint32_t* Find(VoxelKey key) const;
-  uint32_t FindOrInsert(VoxelKey key);
-  void Rehash(size_t slots);
+  uint32_t FindOrInsert(VoxelKey key, const Eigen::Vector3d& centre);
+  uint32_t NewVoxel(VoxelKey key);
+  void Forget(size_t begin, size_t end, const Eigen::Vector3d& centre);
+  void Erase(size_t voxel);
+  void MakeRoom(const Eigen::Vector3d& centre);
   size_t SlotOf(VoxelKey key) const;
 
   VoxelMapOptions options_;
   double inverse_size_;
+  double radius_;
   float squared_spacing_;
-  // Open addressing: slots hold indices into the voxels, which are stored without gaps.
+  size_t lanes_;  ///< max_points_per_voxel, rounded up to whole vectors of the processor
+  // Open addressing: slots hold indices of voxels. A voxel keeps its index as long as it lives.
   std::vector<uint32_t> slots_;
   std::vector<VoxelKey> keys_;
-  std::vector<uint16_t> counts_;
-  std::vector<Eigen::Vector3f> points_;  ///< max_points_per_voxel for each voxel
+  std::vector<uint16_t> counts_;  ///< 0: a free voxel
+  std::vector<uint32_t> free_;
+  std::vector<std::unique_ptr<float[]>> pages_;
+  size_t next_to_look_at_ = 0;
 };
 
 }  // namespace regolith

@@ -13,6 +13,7 @@ void Fields(Archive& archive, VoxelMapOptions& map) {
   archive("voxel_size", map.voxel_size);
   archive("max_points_per_voxel", map.max_points_per_voxel);
   archive("radius", map.radius);
+  archive("max_voxels", map.max_voxels);
 }
 
 template <typename Archive>
@@ -21,6 +22,7 @@ void Fields(Archive& archive, PointToPlaneOptions& planes) {
   archive("min_neighbours", planes.min_neighbours);
   archive("max_thickness_ratio", planes.max_thickness_ratio);
   archive("min_width_ratio", planes.min_width_ratio);
+  archive("search_again_distance", planes.search_again_distance);
   archive("range_sigma", planes.range_sigma);
   archive("independence", planes.independence);
 }
@@ -33,7 +35,7 @@ void Fields(Archive& archive, ScanMatcherOptions& matcher) {
   archive("rotation_tolerance", matcher.rotation_tolerance);
   archive("position_tolerance", matcher.position_tolerance);
   archive("min_matches", matcher.min_matches);
-  archive("degenerate_sigma", matcher.degenerate_sigma);
+  archive("degenerate_ratio", matcher.degenerate_ratio);
 }
 
 template <typename Archive>
@@ -46,20 +48,47 @@ void Fields(Archive& archive, RestDetectionOptions& rest) {
 }
 
 template <typename Archive>
+void Fields(Archive& archive, WheelVelocityOptions& wheels) {
+  archive("slip_sigma", wheels.slip_sigma);
+  archive("slip_walk", wheels.slip_walk);
+  archive("velocity_sigma", wheels.velocity_sigma);
+  archive("lateral_share", wheels.lateral_share);
+  archive("vertical_share", wheels.vertical_share);
+  archive("turn_share", wheels.turn_share);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, WheelPreintegrationOptions& wheels) {
+  archive("distance_sigma_share", wheels.distance_sigma_share);
+  archive("lateral_sigma_share", wheels.lateral_sigma_share);
+  archive("vertical_sigma_share", wheels.vertical_sigma_share);
+  archive("yaw_sigma_share", wheels.yaw_sigma_share);
+  archive("yaw_sigma_per_metre", wheels.yaw_sigma_per_metre);
+  archive("tilt_sigma_per_metre", wheels.tilt_sigma_per_metre);
+  archive("floor_position_sigma", wheels.floor_position_sigma);
+  archive("floor_rotation_sigma", wheels.floor_rotation_sigma);
+}
+
+template <typename Archive>
 void Fields(Archive& archive, InertialFilterOptions& filter) {
   archive("rest_velocity_sigma", filter.rest_velocity_sigma);
   archive("moving_velocity_sigma", filter.moving_velocity_sigma);
   archive("moving_tilt_sigma", filter.moving_tilt_sigma);
   archive("noise_inflation", filter.noise_inflation);
+  archive("wheels", filter.wheels);
 }
 
 template <typename Archive>
 void Fields(Archive& archive, LidarOdometryOptions& lio) {
+  archive("lidar", lio.lidar);
   archive("imu", lio.imu);
+  archive("wheels", lio.wheels);
   archive("map", lio.map);
   archive("map_levels", lio.map_levels);
   archive("map_growth", lio.map_growth);
   archive("scan_voxel_size", lio.scan_voxel_size);
+  archive("max_points", lio.max_points);
+  archive("map_renewal_length", lio.map_renewal_length);
   archive("matcher", lio.matcher);
   archive("initialization_window", lio.initialization_window);
   archive("rest", lio.rest);
@@ -68,6 +97,7 @@ void Fields(Archive& archive, LidarOdometryOptions& lio) {
   archive("filter", lio.filter);
   archive("velocity_rotation_sigma", lio.velocity_rotation_sigma);
   archive("velocity_position_sigma", lio.velocity_position_sigma);
+  archive("wheel_motion", lio.wheel_motion);
   archive("min_imu_rate", lio.min_imu_rate);
   archive("max_imu_gap", lio.max_imu_gap);
 }

@@ -26,13 +26,6 @@ uint64_t HashBits(uint64_t seed, uint64_t first, uint64_t second, uint64_t third
 
 }  // namespace
 
-uint64_t Scramble(uint64_t value) {
-  value += kGoldenGamma;
-  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  value = (value ^ (value >> 27)) * 0x94d049bb133111ebULL;
-  return value ^ (value >> 31);
-}
-
 double HashUniform(uint64_t seed, uint64_t first, uint64_t second, uint64_t third) {
   return ToUnit(HashBits(seed, first, second, third));
 }

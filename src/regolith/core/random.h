@@ -9,7 +9,12 @@ namespace regolith {
 
 /// Scrambles 64 bits so that neighbouring inputs give unrelated outputs (SplitMix64, Steele et al.
 /// 2014).
-uint64_t Scramble(uint64_t value);
+inline uint64_t Scramble(uint64_t value) {
+  value += 0x9e3779b97f4a7c15ULL;
+  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  value = (value ^ (value >> 27)) * 0x94d049bb133111ebULL;
+  return value ^ (value >> 31);
+}
 
 /// A value in [0, 1) that depends on nothing but its arguments: the same noise whatever the order
 /// of the work.

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "regolith/cloud/plane_fit.h"
 #include "regolith/core/check.h"
 
@@ -77,30 +75,23 @@ FeatureMap::FeatureMap(const FeatureMapOptions& options)
 }
 
 void FeatureMap::Add(const FeatureCloud& cloud_lidar, const SE3& T_map_lidar) {
-  edges_.Add(Transformed(T_map_lidar, cloud_lidar.edges));
+  const Eigen::Vector3d& centre = T_map_lidar.translation;
+  edges_.Add(Transformed(T_map_lidar, cloud_lidar.edges), centre);
   const auto planars_map = Transformed(T_map_lidar, cloud_lidar.planars);
-  for (VoxelMap& map : planars_) map.Add(planars_map);
+  for (VoxelMap& map : planars_) map.Add(planars_map, centre);
 }
 
-void FeatureMap::RemoveFarFrom(const Eigen::Vector3d& centre) {
-  edges_.RemoveFarFrom(centre);
-  for (VoxelMap& map : planars_) map.RemoveFarFrom(centre);
+void FeatureMap::ForgetFarFrom(const Eigen::Vector3d& centre) {
+  edges_.ForgetFarFrom(centre);
+  for (VoxelMap& map : planars_) map.ForgetFarFrom(centre);
 }
 
 FeatureLine FeatureMap::FindLine(const Eigen::Vector3d& point_map) const {
   const Neighbours found = edges_.Nearest(point_map, options_.neighbours, options_.search_distance);
   if (found.count < options_.neighbours) return {};
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : found.Points()) centroid += point;
-  centroid /= found.count;
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& point : found.Points()) {
-    scatter.noalias() += (point - centroid) * (point - centroid).transpose();
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(scatter);
-  if (!(solver.eigenvalues()[2] > options_.line_ratio * solver.eigenvalues()[1])) return {};
-  return {true, centroid, solver.eigenvectors().col(2)};
+  const PlaneFit fit = FitPlane(found.Points());
+  if (!(fit.variances[2] > options_.line_ratio * fit.variances[1])) return {};
+  return {true, fit.centroid, fit.axes.col(2)};
 }
 
 FeaturePlane FeatureMap::FindPlane(const Eigen::Vector3d& point_map) const {

@@ -36,7 +36,7 @@ class FeatureMap {
   explicit FeatureMap(const FeatureMapOptions& options);
 
   void Add(const FeatureCloud& cloud_lidar, const SE3& T_map_lidar);
-  void RemoveFarFrom(const Eigen::Vector3d& centre);
+  void ForgetFarFrom(const Eigen::Vector3d& centre);
   bool empty() const { return edges_.empty() && planars_.front().empty(); }
 
   /// The pose near the guess that brings the features onto the lines and planes of the map.

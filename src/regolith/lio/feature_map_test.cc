@@ -102,7 +102,7 @@ TEST(FeatureMap, ForgetsWhatIsFar) {
   ThreadPool threads(1);
   FeatureMap map{FeatureMapOptions()};
   map.Add(Yard(1, true), SE3());
-  map.RemoveFarFrom({200.0, 0.0, 0.0});
+  map.ForgetFarFrom({200.0, 0.0, 0.0});
   EXPECT_TRUE(map.empty());
 }
 

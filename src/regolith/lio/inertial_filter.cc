@@ -20,6 +20,7 @@ constexpr int kVelocity = 6;
 constexpr int kGyroBias = 9;
 constexpr int kAccelerometerBias = 12;
 constexpr int kGravity = 15;
+constexpr int kWheelSlip = 18;
 // Keeps the covariance invertible along what is fixed by definition: the first pose, gravity's
 // magnitude.
 constexpr double kFixedSigma = 1e-4;
@@ -58,6 +59,7 @@ InertialFilter::InertialFilter(TimeNs time, const RestReport& first_samples, dou
   const double horizontal = gravity * tilt_sigma;
   covariance_.diagonal().segment<2>(kGravity).setConstant(horizontal * horizontal);
   covariance_(kGravity + 2, kGravity + 2) = kFixedSigma * kFixedSigma;
+  covariance_(kWheelSlip, kWheelSlip) = std::pow(options.wheels.slip_sigma, 2);
 }
 
 void InertialFilter::Propagate(const ImuSample& from, const ImuSample& to) {
@@ -87,6 +89,11 @@ void InertialFilter::Propagate(const ImuSample& from, const ImuSample& to) {
   Diagonal<kGyroBias>(covariance_).array() += std::pow(noise_.gyro_walk, 2) * dt;
   Diagonal<kAccelerometerBias>(covariance_).array() += std::pow(noise_.accelerometer_walk, 2) * dt;
 
+  // Slip returns to what it was at the start, so that it does not wander without end.
+  const double most = std::pow(options_.wheels.slip_sigma, 2);
+  const double walk = std::pow(options_.wheels.slip_walk, 2) * dt;
+  covariance_(kWheelSlip, kWheelSlip) = std::min(most, covariance_(kWheelSlip, kWheelSlip) + walk);
+
   state_ = regolith::Propagate(state_, from, to, gravity_world_);
 }
 
@@ -114,6 +121,33 @@ void InertialFilter::AbsorbPose(const SE3& T_world_imu, const Matrix6d& covarian
   Correct(gain * Minus(T_world_imu, state_.T_world_imu));
 }
 
+void InertialFilter::AbsorbWheels(const WheelOdometry& wheels, const SE3& T_imu_base,
+                                  const Eigen::Vector3d& rate) {
+  const Eigen::Matrix3d R_base_imu = T_imu_base.rotation.conjugate().toRotationMatrix();
+  const Eigen::Matrix3d R_imu_world = state_.T_world_imu.rotation.conjugate().toRotationMatrix();
+  const Eigen::Vector3d velocity_imu = R_imu_world * state_.v_world_imu;
+  const Eigen::Vector3d true_rate = rate - state_.gyro_bias;
+  const Eigen::Vector3d velocity_base =
+      R_base_imu * (velocity_imu + true_rate.cross(T_imu_base.translation));
+  // The wheels roll (1 + slip) times the way.
+  Eigen::Matrix<double, 3, kSize> jacobian = Eigen::Matrix<double, 3, kSize>::Zero();
+  jacobian.block<3, 3>(0, kRotation) = R_base_imu * Hat(velocity_imu);
+  jacobian.block<3, 3>(0, kVelocity) = R_base_imu * R_imu_world;
+  jacobian.block<3, 3>(0, kGyroBias) = R_base_imu * Hat(T_imu_base.translation);
+  jacobian.row(0) *= 1.0 + wheel_slip_;
+  jacobian(0, kWheelSlip) = velocity_base.x();
+  Eigen::Vector3d predicted = velocity_base;
+  predicted.x() *= 1.0 + wheel_slip_;
+
+  const WheelVelocityOptions& trust = options_.wheels;
+  const double speed = std::abs(wheels.linear_velocity_base.x());
+  const double skid = trust.turn_share * std::abs(wheels.angular_velocity_base.z());
+  const double floor = std::pow(trust.velocity_sigma, 2) + skid * skid;
+  const Eigen::Vector3d variances(floor, floor + std::pow(trust.lateral_share * speed, 2),
+                                  floor + std::pow(trust.vertical_share * speed, 2));
+  Absorb<3>(jacobian, wheels.linear_velocity_base - predicted, variances);
+}
+
 void InertialFilter::AbsorbRest(const ImuStatistics& samples) {
   // z = [v; mean rate - gyro bias] = 0.
   Eigen::Matrix<double, 6, kSize> jacobian = Eigen::Matrix<double, 6, kSize>::Zero();
@@ -124,17 +158,25 @@ void InertialFilter::AbsorbRest(const ImuStatistics& samples) {
   const double rate_sigma =
       samples.sigma_rate.maxCoeff() / std::sqrt(std::max(1.0, static_cast<double>(samples.count))) +
       1e-5;
-  Vector6d noise;
-  noise << Eigen::Vector3d::Constant(std::pow(options_.rest_velocity_sigma, 2)),
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(std::pow(options_.rest_velocity_sigma, 2)),
       Eigen::Vector3d::Constant(rate_sigma * rate_sigma);
-  Matrix6d innovation_covariance = jacobian * covariance_ * jacobian.transpose();
-  innovation_covariance.diagonal() += noise;
-  const Eigen::Matrix<double, kSize, 6> gain =
+  Absorb<6>(jacobian, innovation, variances);
+}
+
+template <int kRows>
+void InertialFilter::Absorb(const Eigen::Matrix<double, kRows, kSize>& jacobian,
+                            const Eigen::Matrix<double, kRows, 1>& innovation,
+                            const Eigen::Matrix<double, kRows, 1>& variances) {
+  using Square = Eigen::Matrix<double, kRows, kRows>;
+  Square innovation_covariance = jacobian * covariance_ * jacobian.transpose();
+  innovation_covariance.diagonal() += variances;
+  const Eigen::Matrix<double, kSize, kRows> gain =
       innovation_covariance.ldlt().solve(jacobian * covariance_).transpose();
   // Joseph's form keeps the covariance positive.
   const Covariance remaining = Covariance::Identity() - gain * jacobian;
   const Covariance updated = remaining * covariance_ * remaining.transpose() +
-                             gain * noise.asDiagonal() * gain.transpose();
+                             gain * variances.asDiagonal() * gain.transpose();
   covariance_ = 0.5 * (updated + updated.transpose());
   Correct(gain * innovation);
 }
@@ -144,6 +186,7 @@ void InertialFilter::Correct(const Eigen::Matrix<double, kSize, 1>& error) {
   state_.v_world_imu += error.segment<3>(kVelocity);
   state_.gyro_bias += error.segment<3>(kGyroBias);
   state_.accelerometer_bias += error.segment<3>(kAccelerometerBias);
+  wheel_slip_ += error[kWheelSlip];
   gravity_world_ = gravity_ * (gravity_world_ + error.segment<3>(kGravity)).normalized();
 }
 

@@ -9,17 +9,18 @@
 #include "regolith/lio/inertial_filter_options.h"
 #include "regolith/sensor/imu_noise.h"
 #include "regolith/sensor/imu_sample.h"
+#include "regolith/sensor/wheel_odometry.h"
 
 namespace regolith {
 
 /// Error-state filter of one IMU (Solà 2017, "Quaternion kinematics for the error-state Kalman
 /// filter"; Xu et al. 2022 for gravity as a state). Error order: [rotation (right), position,
-/// velocity, gyro bias, accelerometer bias, gravity], SI units. The world's z axis points up as far
+/// velocity, gyro bias, accelerometer bias, gravity, wheel slip], SI units. The world's z axis points up as far
 /// as the first samples tell; what the accelerometer's bias hides of that is estimated as the
 /// direction of gravity, whose magnitude is known.
 class InertialFilter {
  public:
-  static constexpr int kSize = 18;
+  static constexpr int kSize = 19;
   using Covariance = Eigen::Matrix<double, kSize, kSize>;
 
   /// Starts from the statistics of the first samples. `gravity`: magnitude, m/s².
@@ -28,6 +29,8 @@ class InertialFilter {
 
   const NavState& state() const { return state_; }
   const Eigen::Vector3d& gravity_world() const { return gravity_world_; }
+  /// Share by which the wheels say more than the way that was gone.
+  double wheel_slip() const { return wheel_slip_; }
   const Covariance& covariance() const { return covariance_; }
   Matrix6d PoseCovariance() const { return covariance_.topLeftCorner<6, 6>(); }
 
@@ -42,14 +45,22 @@ class InertialFilter {
   /// covariance replace the prior's, and everything that is correlated with the pose follows.
   void AbsorbPose(const SE3& T_world_imu, const Matrix6d& covariance);
 
+  /// The velocity that the wheels tell. `rate`: the gyro's, rad/s, at the same time.
+  void AbsorbWheels(const WheelOdometry& wheels, const SE3& T_imu_base, const Eigen::Vector3d& rate);
+
   /// Zero velocity, and zero rotation so that the mean rate is the gyro's bias.
   void AbsorbRest(const ImuStatistics& samples);
 
  private:
+  template <int kRows>
+  void Absorb(const Eigen::Matrix<double, kRows, kSize>& jacobian,
+              const Eigen::Matrix<double, kRows, 1>& innovation,
+              const Eigen::Matrix<double, kRows, 1>& variances);
   void Correct(const Eigen::Matrix<double, kSize, 1>& error);
 
   NavState state_;
   Eigen::Vector3d gravity_world_;
+  double wheel_slip_ = 0.0;
   Covariance covariance_ = Covariance::Zero();
   double gravity_;
   ImuNoise noise_;

@@ -147,7 +147,7 @@ ScanEstimate LegoLoam::Estimate(const LidarScan& scan) {
   estimate.match.T_map_body = ToBody(match.T_map_lidar);
   estimate.match.covariance = estimate.covariance;
   estimate.match.used_scan = match.used_scan;
-  estimate.match.degenerate_directions = match.degenerate_directions;
+  estimate.match.observable.degenerate_directions = match.degenerate_directions;
   estimate.match.system.points = static_cast<int>(cloud.edges.size() + cloud.planars.size());
   estimate.match.system.matches = match.system.matches;
   estimate.match.system.inliers = match.system.inliers;
@@ -186,7 +186,7 @@ void LegoLoam::Extend(const FeatureCloud& cloud, TimeNs time) {
     return;
   }
   map_.Add(cloud, last_->T_world_body);
-  map_.RemoveFarFrom(last_->T_world_body.translation);
+  map_.ForgetFarFrom(last_->T_world_body.translation);
 }
 
 void LegoLoam::RebuildMap() {
@@ -198,7 +198,7 @@ void LegoLoam::RebuildMap() {
     const double distance = (keyframe->T_map_lidar.translation - centre).norm();
     if (distance < options_.map.radius) map_.Add(keyframe->cloud, keyframe->T_map_lidar);
   }
-  map_.RemoveFarFrom(centre);
+  map_.ForgetFarFrom(centre);
 }
 
 std::optional<Trajectory> LegoLoam::Refined() const {

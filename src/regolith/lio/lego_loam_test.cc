@@ -86,7 +86,7 @@ TEST(LegoLoam, FollowsADrive) {
   ASSERT_EQ(estimates.size(), static_cast<size_t>(kScans));
   EXPECT_LT(WorstError(estimates), 0.06);
   EXPECT_EQ(estimates.back().leader, "lidar");
-  EXPECT_EQ(estimates.back().match.degenerate_directions, 0);
+  EXPECT_EQ(estimates.back().match.observable.degenerate_directions, 0);
   EXPECT_EQ(estimates.back().points.size(), ScanAt(kScans - 1).points.size());
   EXPECT_THAT(odometry.Notices(), IsEmpty());
 }
@@ -200,7 +200,7 @@ TEST(LegoLoam, OnePlaneIsSurvivedAndCalledDegenerate) {
     const ScanEstimate estimate = odometry.AddScan(scan).front();
     EXPECT_LT(estimate.T_world_body.translation.norm(), 0.01);
     if (i == 0) continue;
-    EXPECT_EQ(estimate.match.degenerate_directions, 3);
+    EXPECT_EQ(estimate.match.observable.degenerate_directions, 3);
     EXPECT_GT(estimate.covariance(3, 3), 0.05);
     EXPECT_LT(estimate.covariance(5, 5), 0.001);
   }

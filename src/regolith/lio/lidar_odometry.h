@@ -10,24 +10,26 @@
 #include "regolith/cloud/voxel_map.h"
 #include "regolith/core/thread_pool.h"
 #include "regolith/geometry/trajectory.h"
-#include "regolith/lio/inertial_filter.h"
+#include "regolith/lio/inertial_tracker.h"
 #include "regolith/lio/lidar_odometry_options.h"
+#include "regolith/lio/map_drift.h"
 #include "regolith/lio/scan_odometry.h"
 #include "regolith/sensor/rig_calibration.h"
 
 namespace regolith {
 
-/// Lidar–inertial odometry: the IMU removes the scan's motion distortion and predicts its pose;
-/// planes of the map around correct it; the filter learns velocity, biases and gravity from the
-/// correction. Without an IMU the last motion is the guess. The body is the IMU where there is one;
+/// Lidar–inertial odometry: the IMU removes the scan's motion distortion and, with the wheels,
+/// predicts its pose; planes of the map around correct it; the filter learns velocity, biases,
+/// gravity and the wheels' slip from the correction. Without an IMU the wheels are the guess, or the
+/// last motion. Without the lidar, IMU and wheels go alone. The body is the IMU where there is one;
 /// the world is level there, with its origin at the first IMU pose; else it is the first body pose.
 class LidarOdometry : public ScanOdometry {
  public:
   LidarOdometry(const LidarOdometryOptions& options, const RigCalibration& rig,
                 ThreadPool* threads);
 
-  /// Measurements in order of their stamps. A scan is estimated as soon as the IMU has reached its
-  /// end. Throws InputError where the IMU's units or the rig's gravity cannot be right.
+  /// A scan is estimated as soon as the IMU has reached its end. Throws InputError where the IMU's
+  /// units or the rig's gravity cannot be right.
   std::vector<ScanEstimate> AddImu(const ImuSample& sample) override;
   std::vector<ScanEstimate> AddWheels(const WheelOdometry& odometry) override;
   std::vector<ScanEstimate> AddScan(const LidarScan& scan) override;
@@ -35,48 +37,45 @@ class LidarOdometry : public ScanOdometry {
   std::vector<std::string> Notices() const override;
 
  private:
-  struct Gap {
-    TimeNs begin = 0;
-    TimeNs end = 0;
+  /// A pose before a scan is matched, and how far it is trusted.
+  struct Guess {
+    SE3 T_world_body;
+    Matrix6d covariance = Matrix6d::Identity();
   };
 
   std::vector<ScanEstimate> EstimateReady(bool all);
   bool IsReady(const LidarScan& scan) const;
-  void Initialize();
-  void CheckGravity(const ImuStatistics& statistics) const;
   ScanEstimate EstimateInertial(const LidarScan& scan);
-  ScanEstimate EstimateLidarOnly(const LidarScan& scan);
-  std::vector<StampedPose> PropagateTo(TimeNs end);
-  void PropagateStep(const ImuSample& from, const ImuSample& to);
-  std::optional<ImuStatistics> RestStatistics(TimeNs time) const;
-  ScanMatch Match(const std::vector<Eigen::Vector3d>& points_body, const SE3& prior,
-                  const Matrix6d& covariance);
+  ScanEstimate EstimateWithoutImu(const LidarScan& scan);
+  Guess GuessAt(TimeNs time) const;
+  ScanMatch Match(const std::vector<Eigen::Vector3d>& points_body, const Guess& guess);
+  void AddDrift(const SE3& T_world_body, ScanEstimate* estimate);
   std::vector<MapPoint> ExtendMap(const LidarScan& scan,
                                   const std::vector<Eigen::Vector3d>& points_body,
                                   const SE3& T_world_body);
 
   LidarOdometryOptions options_;
-  RigCalibration rig_;
   SE3 T_body_lidar_;
+  std::optional<SE3> T_body_base_;  ///< of the wheels, where they are used
   ThreadPool* threads_;
   std::vector<VoxelMap> maps_;  ///< the same points, from fine to coarse voxels
+  MapDrift drift_;
+  std::optional<SE3> last_pose_;  ///< that `drift_` has reached
   std::deque<LidarScan> waiting_;
+  std::optional<InertialTracker> inertial_;      ///< nothing without an IMU
+  std::optional<InertialTracker> unusable_imu_;  ///< too slow an IMU, for its notice
 
-  // With an IMU.
-  std::vector<ImuSample> samples_;  ///< from a rest window before the filter's time on
-  std::deque<Gap> gaps_;
-  std::optional<InertialFilter> filter_;
-
-  // Without one.
+  // Without an IMU.
   std::optional<StampedPose> last_;            ///< at the middle of the last sweep
   Vector6d velocity_body_ = Vector6d::Zero();  ///< [rad/s, m/s], between the last two
+  std::vector<WheelOdometry> wheels_;          ///< from `last_` on
 
+  std::optional<TimeNs> last_stamp_;
   size_t scans_ = 0;
   size_t empty_scans_ = 0;
   size_t early_scans_ = 0;
-  size_t gap_count_ = 0;
-  double longest_gap_ = 0.0;
-  std::string start_notice_;
+  size_t unmatched_scans_ = 0;
+  size_t repeated_scans_ = 0;
 };
 
 }  // namespace regolith

@@ -4,18 +4,23 @@
 
 #include "regolith/cloud/voxel_map_options.h"
 #include "regolith/imu/rest_detection_options.h"
+#include "regolith/imu/wheel_preintegration_options.h"
 #include "regolith/lio/inertial_filter_options.h"
 #include "regolith/lio/scan_matcher.h"
 
 namespace regolith {
 
 struct LidarOdometryOptions {
-  bool imu = true;      ///< false: lidar alone, guess from constant velocity
+  bool lidar = true;    ///< false: IMU and wheels alone
+  bool imu = true;      ///< false: lidar alone, guess from wheels or constant velocity
+  bool wheels = false;  ///< where the rig has them
   VoxelMapOptions map;  ///< the finest; each coarser one has voxels `map_growth` times as large
   int map_levels = 2;
   double map_growth = 3.0;
   ScanMatcherOptions matcher;
   double scan_voxel_size = 0.35;       ///< m, one point a voxel is matched
+  int max_points = 6000;               ///< more than these are thinned further
+  double map_renewal_length = 10.0;    ///< m of way after which the map around is new (MapDrift)
   double initialization_window = 1.0;  ///< s of IMU samples that start the filter
   RestDetectionOptions rest;
   double rest_window = 0.5;  ///< s of IMU samples that must be still to say that the rover stands
@@ -24,6 +29,7 @@ struct LidarOdometryOptions {
   /// Without an IMU, 1 σ of what the motion between two scans may differ from that before.
   double velocity_rotation_sigma = 0.05;  ///< rad
   double velocity_position_sigma = 0.3;   ///< m
+  WheelPreintegrationOptions wheel_motion;  ///< without an IMU
   double min_imu_rate = 50.0;             ///< Hz; a slower IMU is reported and not used
   double max_imu_gap = 0.1;  ///< s between samples; a longer one is bridged by constant velocity
 

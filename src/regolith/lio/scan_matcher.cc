@@ -3,24 +3,18 @@
 #include "regolith/lio/scan_matcher.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+
+#include "regolith/core/check.h"
 
 namespace regolith {
-namespace {
 
-// Position's share of the information once rotation is free (Schur complement), by eigenvalue.
-int CountDegenerateDirections(const Matrix6d& information, double sigma) {
-  Eigen::Matrix3d rotation = information.topLeftCorner<3, 3>();
-  rotation.diagonal().array() += 1e-9;
-  const Eigen::Matrix3d coupling = information.topRightCorner<3, 3>();
-  const Eigen::Matrix3d position = information.bottomRightCorner<3, 3>() -
-                                   coupling.transpose() * rotation.ldlt().solve(coupling);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(position, Eigen::EigenvaluesOnly);
-  return static_cast<int>((solver.eigenvalues().array() < 1.0 / (sigma * sigma)).count());
+void ScanMatcherOptions::Check() const {
+  planes.Check();
+  REGOLITH_CHECK(max_searches >= 1, "max_searches=", max_searches);
+  REGOLITH_CHECK(steps_per_search >= 1, "steps_per_search=", steps_per_search);
+  REGOLITH_CHECK(min_matches >= 6, "min_matches=", min_matches);
+  REGOLITH_CHECK(degenerate_ratio >= 1.0, "degenerate_ratio=", degenerate_ratio);
 }
-
-}  // namespace
 
 ScanMatch MatchScan(Span<const Eigen::Vector3d> points_body, const SE3& prior,
                     const Matrix6d& prior_covariance, Span<const VoxelMap> maps,
@@ -30,20 +24,23 @@ ScanMatch MatchScan(Span<const Eigen::Vector3d> points_body, const SE3& prior,
   match.covariance = prior_covariance;
   const Matrix6d prior_information = prior_covariance.ldlt().solve(Matrix6d::Identity());
   Matrix6d information = prior_information;
+  std::vector<PlaneMatch> planes;
   for (int search = 0; search < options.max_searches; ++search) {
     const SE3 before = match.T_map_body;
-    const auto planes = FindPlanes(points_body, before, maps, options.planes, threads);
+    FindPlanes(points_body, before, maps, options.planes, threads, &planes);
     match.searches = search + 1;
     for (int step = 0; step < options.steps_per_search; ++step) {
-      match.system = LinearizePointToPlane(points_body, planes, match.T_map_body, options.planes);
+      match.system =
+          LinearizePointToPlane(points_body, planes, match.T_map_body, options.planes, threads);
       if (match.system.matches < options.min_matches) {
         match.T_map_body = prior;
-        match.degenerate_directions = 3;
+        match.observable.degenerate_directions = 6;
         return match;
       }
-      information = prior_information + match.system.information;
+      match.observable = RemoveDegenerateDirections(match.system, options.degenerate_ratio);
+      information = prior_information + match.observable.information;
       const Vector6d gradient =
-          match.system.gradient + prior_information * Minus(match.T_map_body, prior);
+          match.observable.gradient + prior_information * Minus(match.T_map_body, prior);
       match.T_map_body = Plus(match.T_map_body, -information.ldlt().solve(gradient));
     }
     const Vector6d change = Minus(match.T_map_body, before);
@@ -54,8 +51,6 @@ ScanMatch MatchScan(Span<const Eigen::Vector3d> points_body, const SE3& prior,
   }
   match.used_scan = true;
   match.covariance = information.ldlt().solve(Matrix6d::Identity());
-  match.degenerate_directions =
-      CountDegenerateDirections(match.system.information, options.degenerate_sigma);
   return match;
 }
 

@@ -7,6 +7,7 @@
 #include "regolith/cloud/voxel_map.h"
 #include "regolith/core/thread_pool.h"
 #include "regolith/geometry/se3.h"
+#include "regolith/registration/degeneracy.h"
 #include "regolith/registration/point_to_plane.h"
 
 namespace regolith {
@@ -18,8 +19,12 @@ struct ScanMatcherOptions {
   double rotation_tolerance = 1e-4;  ///< rad, a smaller change by new planes ends the search
   double position_tolerance = 1e-3;  ///< m
   int min_matches = 50;              ///< fewer leave the prior as it is
-  /// m; a direction that the scan alone leaves less certain than this is called degenerate.
-  double degenerate_sigma = 0.1;
+  /// Of the information about a direction over what the errors of the normals alone would make:
+  /// less is none (RemoveDegenerateDirections; calibrated by simulation, docs/lidar.md).
+  double degenerate_ratio = 2.0;
+
+  /// Throws CheckError on values that make no match.
+  void Check() const;
 };
 
 struct ScanMatch {
@@ -27,13 +32,13 @@ struct ScanMatch {
   Matrix6d covariance = Matrix6d::Identity();  ///< [rotation (right), position]
   bool used_scan = false;  ///< false: too few matches, pose and covariance are the prior's
   int searches = 0;
-  int degenerate_directions = 0;  ///< of position, from the scan alone
-  PointToPlaneSystem system;      ///< at the last linearisation
+  PointToPlaneSystem system;    ///< at the last linearisation
+  ObservableSystem observable;  ///< what of it was used
 };
 
 /// The most probable pose given a Gaussian prior and a scan (points in m, body frame): Gauss–Newton
 /// on the sum of the prior's and the planes' squared errors. Directions that the scan does not see
-/// stay as the prior has them.
+/// stay as the prior has them, and those that it seems to see by noise alone too.
 ScanMatch MatchScan(Span<const Eigen::Vector3d> points_body, const SE3& prior,
                     const Matrix6d& prior_covariance, Span<const VoxelMap> maps,
                     const ScanMatcherOptions& options, ThreadPool* threads);

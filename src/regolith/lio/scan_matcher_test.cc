@@ -12,12 +12,13 @@ namespace regolith {
 namespace {
 
 std::vector<VoxelMap> FlatMap() {
-  std::vector<VoxelMap> map(1, VoxelMap({}));
+  std::vector<VoxelMap> map;
+  map.emplace_back(VoxelMapOptions());
   std::vector<Eigen::Vector3d> points;
   for (double x = -12.0; x <= 12.0; x += 0.1) {
     for (double y = -12.0; y <= 12.0; y += 0.1) points.emplace_back(x, y, 0.0);
   }
-  map[0].Add(points);
+  map[0].Add(points, Eigen::Vector3d::Zero());
   return map;
 }
 
@@ -42,7 +43,7 @@ TEST(ScanMatcher, WhatTheScanDoesNotSeeStaysAsThePriorHasIt) {
   EXPECT_NEAR(match.T_map_body.translation.z(), 1.0, 0.005);
   EXPECT_NEAR(match.T_map_body.translation.x(), 0.3, 1e-6);
   EXPECT_NEAR(match.T_map_body.translation.y(), -0.2, 1e-6);
-  EXPECT_EQ(match.degenerate_directions, 2);
+  EXPECT_EQ(match.observable.degenerate_directions, 3);
   EXPECT_NEAR(match.covariance(3, 3), 0.01, 1e-4);
   EXPECT_LT(match.covariance(5, 5), 1e-4);
 }

@@ -20,14 +20,15 @@ Eigen::Vector3d GroundPoint(double x, double y) {
 }
 
 std::vector<VoxelMap> GroundMap(bool flat) {
-  std::vector<VoxelMap> map(1, VoxelMap({}));
+  std::vector<VoxelMap> map;
+  map.emplace_back(VoxelMapOptions());
   std::vector<Eigen::Vector3d> points;
   for (double x = -15.0; x <= 15.0; x += 0.1) {
     for (double y = -15.0; y <= 15.0; y += 0.1) {
       points.push_back(flat ? Eigen::Vector3d(x, y, 0.0) : GroundPoint(x, y));
     }
   }
-  map[0].Add(points);
+  map[0].Add(points, Eigen::Vector3d::Zero());
   return map;
 }
 
@@ -46,8 +47,9 @@ std::vector<Eigen::Vector3d> Scan(const SE3& T_map_body, double sigma, bool flat
 
 PointToPlaneSystem Linearize(const std::vector<Eigen::Vector3d>& points, const SE3& pose,
                              Span<const VoxelMap> maps, ThreadPool* threads) {
-  const auto planes = FindPlanes(points, pose, maps, {}, threads);
-  return LinearizePointToPlane(points, planes, pose, {});
+  std::vector<PlaneMatch> planes;
+  FindPlanes(points, pose, maps, {}, threads, &planes);
+  return LinearizePointToPlane(points, planes, pose, {}, threads);
 }
 
 SE3 TruePose() { return {ExpSo3({0.02, -0.03, 0.3}), {0.5, -0.4, 1.2}}; }
@@ -114,8 +116,9 @@ std::vector<Eigen::Vector3d> Ring(double height) {
 }
 
 TEST(PointToPlane, ARingAloneMakesNoPlane) {
-  std::vector<VoxelMap> map(1, VoxelMap({}));
-  map[0].Add(Ring(0.0));
+  std::vector<VoxelMap> map;
+  map.emplace_back(VoxelMapOptions());
+  map[0].Add(Ring(0.0), Eigen::Vector3d::Zero());
   ThreadPool threads(1);
   EXPECT_EQ(Linearize(Ring(0.0), SE3(), map, &threads).matches, 0);
 }
@@ -123,10 +126,12 @@ TEST(PointToPlane, ARingAloneMakesNoPlane) {
 TEST(PointToPlane, RingsApartMakePlanesInACoarserMap) {
   VoxelMapOptions coarse;
   coarse.voxel_size = 1.5;
-  std::vector<VoxelMap> maps = {VoxelMap({}), VoxelMap(coarse)};
+  std::vector<VoxelMap> maps;
+  maps.emplace_back(VoxelMapOptions());
+  maps.emplace_back(coarse);
   for (VoxelMap& map : maps) {
-    map.Add(Ring(0.0));
-    map.Add(Ring(0.6));
+    map.Add(Ring(0.0), Eigen::Vector3d::Zero());
+    map.Add(Ring(0.6), Eigen::Vector3d::Zero());
   }
   ThreadPool threads(1);
   const auto fine = Linearize(Ring(0.0), SE3(), {maps.data(), 1}, &threads);

@@ -20,6 +20,7 @@ SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
   const bool tracks = TracksImages(options, rig);
   needs.imu = options.odometry == OdometryKind::kLio && options.lio.imu && rig.imu.has_value();
   needs.lidar = true;
+  needs.wheels = options.lio.wheels && rig.wheels.has_value();
   if (tracks) needs.cameras.push_back(options.tracked_camera);
   return needs;
 }
@@ -42,7 +43,7 @@ FrameReport ReportOf(const ScanEstimate& estimate) {
   report.matches = estimate.match.system.matches;
   report.inliers = estimate.match.system.inliers;
   report.residual_scale = estimate.match.system.scale;
-  report.degenerate_directions = estimate.match.degenerate_directions;
+  report.degenerate_directions = estimate.match.observable.degenerate_directions;
   report.covariance = estimate.covariance;
   report.stages = estimate.stages;
   return report;

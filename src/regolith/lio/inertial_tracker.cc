@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/lio/inertial_tracker.h"
+
+#include <algorithm>
+
+#include "regolith/core/error.h"
+#include "regolith/imu/propagation.h"
+
+namespace regolith {
+namespace {
+
+constexpr double kEarthGravity = 9.81;
+
+}  // namespace
+
+InertialTracker::InertialTracker(const LidarOdometryOptions& options, const RigCalibration& rig)
+    : options_(options), rig_(rig) {
+  REGOLITH_CHECK(rig.imu.has_value(), "the rig has no IMU");
+}
+
+void InertialTracker::AddImu(const ImuSample& sample) {
+  if (!samples_.empty()) {
+    const double step = SecondsBetween(samples_.back().time, sample.time);
+    if (step <= 0.0) return;
+    if (step > options_.max_imu_gap) {
+      gaps_.push_back({samples_.back().time, sample.time});
+      ++gap_count_;
+      longest_gap_ = std::max(longest_gap_, step);
+    }
+  }
+  samples_.push_back(sample);
+}
+
+void InertialTracker::AddWheels(const WheelOdometry& odometry) { wheels_.push_back(odometry); }
+
+void InertialTracker::CheckGravity(const ImuStatistics& statistics) const {
+  const double force = statistics.mean_specific_force.norm();
+  const double ratio = force / rig_.gravity;
+  if (ratio > 0.5 && ratio < 2.0) return;
+  const double in_g = ratio * kEarthGravity;
+  throw InputError(
+      rig_.imu->topic,
+      Concatenate("mean specific force at the start is ", force, ", but gravity in the rig is ",
+                  rig_.gravity, " m/s²; ",
+                  in_g > 0.8 && in_g < 1.2 ? "the samples look to be in g, expected m/s²"
+                                           : "check `gravity` in the rig and the IMU's units"));
+}
+
+void InertialTracker::TryToStart(bool all) {
+  if (state_ != State::kWaiting || samples_.size() < 2) return;
+  const double span = SecondsBetween(samples_.front().time, samples_.back().time);
+  if (span < options_.initialization_window && !all) return;
+  const double rate = static_cast<double>(samples_.size() - 1) / span;
+  if (rate < options_.min_imu_rate) {
+    state_ = State::kUnusable;
+    start_notice_ = Concatenate("the IMU comes at ", rate, " Hz, below ", options_.min_imu_rate,
+                                " Hz: it is not used, and the world is not level");
+    return;
+  }
+  const RestReport report = DetectRest(samples_, rig_.gravity, options_.rest);
+  CheckGravity(report.statistics);
+  if (!report.at_rest) {
+    start_notice_ = "the recording does not start at rest (" + report.reason +
+                    "): the first attitude, velocity and biases are rough";
+  }
+  filter_.emplace(samples_.front().time, report, rig_.gravity, rig_.imu->noise, options_.filter);
+  state_ = State::kRunning;
+}
+
+void InertialTracker::Step(const ImuSample& from, const ImuSample& to) {
+  const bool in_gap = std::any_of(gaps_.begin(), gaps_.end(), [&](const Gap& gap) {
+    return from.time >= gap.begin && to.time <= gap.end;
+  });
+  if (in_gap || from.time >= samples_.back().time) {
+    filter_->PropagateBlindly(to.time);
+  } else {
+    filter_->Propagate(from, to);
+  }
+  for (; !wheels_.empty() && wheels_.front().time <= to.time; wheels_.pop_front()) {
+    if (wheels_.front().time <= from.time) continue;
+    filter_->AbsorbWheels(wheels_.front(), rig_.wheels->T_imu_base, to.angular_velocity);
+  }
+}
+
+std::vector<StampedPose> InertialTracker::PropagateTo(TimeNs end) {
+  std::vector<StampedPose> motion = {{filter_->state().time, filter_->state().T_world_imu}};
+  if (end <= filter_->state().time) return motion;
+  const std::vector<ImuSample> steps = SamplesBetween(samples_, filter_->state().time, end);
+  for (size_t i = 1; i < steps.size(); ++i) {
+    if (steps[i].time <= steps[i - 1].time) continue;
+    Step(steps[i - 1], steps[i]);
+    motion.push_back({filter_->state().time, filter_->state().T_world_imu});
+  }
+  return motion;
+}
+
+bool InertialTracker::AbsorbRest() {
+  const TimeNs time = filter_->state().time;
+  if (filter_->state().v_world_imu.norm() > options_.rest_max_speed) return false;
+  const TimeNs begin = AddSeconds(time, -options_.rest_window);
+  if (samples_.front().time > begin || samples_.back().time < time) return false;
+  const std::vector<ImuSample> window = SamplesBetween(samples_, begin, time);
+  const RestReport report = DetectRest(window, rig_.gravity, options_.rest);
+  if (!report.at_rest) return false;
+  filter_->AbsorbRest(report.statistics);
+  return true;
+}
+
+void InertialTracker::Forget() {
+  const TimeNs needed = AddSeconds(filter_->state().time, -2.0 * options_.rest_window);
+  const auto first =
+      std::lower_bound(samples_.begin(), samples_.end(), needed,
+                       [](const ImuSample& sample, TimeNs time) { return sample.time < time; });
+  if (first != samples_.end()) samples_.erase(samples_.begin(), first);
+  while (!gaps_.empty() && gaps_.front().end < filter_->state().time) gaps_.pop_front();
+}
+
+std::vector<std::string> InertialTracker::Notices() const {
+  std::vector<std::string> notices;
+  if (!start_notice_.empty()) notices.push_back(start_notice_);
+  if (gap_count_ > 0) {
+    notices.push_back(Concatenate(gap_count_, " gaps in the IMU, the longest ", longest_gap_,
+                                  " s, were bridged by constant velocity"));
+  }
+  return notices;
+}
+
+}  // namespace regolith

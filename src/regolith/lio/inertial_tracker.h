@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "regolith/geometry/trajectory.h"
+#include "regolith/lio/inertial_filter.h"
+#include "regolith/lio/lidar_odometry_options.h"
+#include "regolith/sensor/imu_sample.h"
+#include "regolith/sensor/rig_calibration.h"
+#include "regolith/sensor/wheel_odometry.h"
+
+namespace regolith {
+
+/// What IMU and wheels say of the motion between scans: collects their samples, starts the filter
+/// when there are enough, and moves it on when asked to.
+class InertialTracker {
+ public:
+  /// The rig has an IMU.
+  InertialTracker(const LidarOdometryOptions& options, const RigCalibration& rig);
+
+  void AddImu(const ImuSample& sample);
+  void AddWheels(const WheelOdometry& odometry);
+
+  enum class State { kWaiting, kRunning, kUnusable };
+  State state() const { return state_; }
+  /// Starts the filter where enough samples are there; `all`: with what there is. Throws InputError
+  /// where the IMU's units or the rig's gravity cannot be right.
+  void TryToStart(bool all);
+
+  bool has_samples() const { return !samples_.empty(); }
+  TimeNs last_sample_time() const { return samples_.back().time; }  ///< there is one
+  InertialFilter& filter() { return *filter_; }                     ///< while running
+  const InertialFilter& filter() const { return *filter_; }
+
+  /// Moves the filter to `end` and gives the poses on the way, its present one first. Wheels are
+  /// absorbed where they were measured.
+  std::vector<StampedPose> PropagateTo(TimeNs end);
+
+  /// Absorbs rest where the last samples are still and the filter says so too; whether it did.
+  bool AbsorbRest();
+
+  /// Drops samples that lie behind.
+  void Forget();
+
+  std::vector<std::string> Notices() const;
+
+ private:
+  struct Gap {
+    TimeNs begin = 0;
+    TimeNs end = 0;
+  };
+
+  void CheckGravity(const ImuStatistics& statistics) const;
+  void Step(const ImuSample& from, const ImuSample& to);
+
+  LidarOdometryOptions options_;
+  RigCalibration rig_;
+  State state_ = State::kWaiting;
+  std::vector<ImuSample> samples_;  ///< from a rest window before the filter's time on
+  std::deque<Gap> gaps_;
+  std::deque<WheelOdometry> wheels_;
+  std::optional<InertialFilter> filter_;
+  size_t gap_count_ = 0;
+  double longest_gap_ = 0.0;
+  std::string start_notice_;
+};
+
+}  // namespace regolith
