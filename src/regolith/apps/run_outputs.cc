@@ -204,7 +204,7 @@ void WriteRunOutputs(const std::string& folder, const RunSetup& setup, const Sla
   const bool partial = !record.complete;
   WriteTum(folder + "/trajectory.tum", InFrame(system.trajectory(), setup.T_body_frame), partial);
   WriteTum(folder + "/odometry.tum", InFrame(system.odometry(), setup.T_body_frame), partial);
-  WritePly(folder + "/map.ply", system.map_points(), partial);
+  WritePly(folder + "/map.ply", system.MapPoints(), partial);
   WriteTable(folder + "/timing.csv", TimingTable(record.frames), record.complete);
   WriteTable(folder + "/status.csv", StatusTable(record.frames), record.complete);
   const std::string configuration = ResolvedConfiguration(setup);

@@ -99,6 +99,7 @@ void Fields(Archive& archive, LegoLoamOptions& lego_loam) {
   archive("odometry", lego_loam.odometry);
   archive("map", lego_loam.map);
   archive("keyframes", lego_loam.keyframes);
+  archive("deskew", lego_loam.deskew);
   archive("velocity_rotation_sigma", lego_loam.velocity_rotation_sigma);
   archive("velocity_position_sigma", lego_loam.velocity_position_sigma);
   archive("independence", lego_loam.independence);

@@ -15,9 +15,9 @@ namespace regolith {
 
 /// Error-state filter of one IMU (Solà 2017, "Quaternion kinematics for the error-state Kalman
 /// filter"; Xu et al. 2022 for gravity as a state). Error order: [rotation (right), position,
-/// velocity, gyro bias, accelerometer bias, gravity, wheel slip], SI units. The world's z axis points up as far
-/// as the first samples tell; what the accelerometer's bias hides of that is estimated as the
-/// direction of gravity, whose magnitude is known.
+/// velocity, gyro bias, accelerometer bias, gravity, wheel slip], SI units. The world's z axis
+/// points up as far as the first samples tell; what the accelerometer's bias hides of that is
+/// estimated as the direction of gravity, whose magnitude is known.
 class InertialFilter {
  public:
   static constexpr int kSize = 19;
@@ -46,7 +46,8 @@ class InertialFilter {
   void AbsorbPose(const SE3& T_world_imu, const Matrix6d& covariance);
 
   /// The velocity that the wheels tell. `rate`: the gyro's, rad/s, at the same time.
-  void AbsorbWheels(const WheelOdometry& wheels, const SE3& T_imu_base, const Eigen::Vector3d& rate);
+  void AbsorbWheels(const WheelOdometry& wheels, const SE3& T_imu_base,
+                    const Eigen::Vector3d& rate);
 
   /// Zero velocity, and zero rotation so that the mean rate is the gyro's bias.
   void AbsorbRest(const ImuStatistics& samples);

@@ -7,12 +7,12 @@ namespace regolith {
 /// How far the wheels' velocity is trusted. Slip lasts as long as a slope does, so it is a state
 /// that wanders; what is left differs from sample to sample.
 struct WheelVelocityOptions {
-  double slip_sigma = 0.05;  ///< of the speed, at the start
-  double slip_walk = 0.01;   ///< 1/√s, how fast slip changes
+  double slip_sigma = 0.05;      ///< of the speed, at the start
+  double slip_walk = 0.01;       ///< 1/√s, how fast slip changes
   double velocity_sigma = 0.02;  ///< m/s, of one sample, each axis
   double lateral_share = 0.1;    ///< of the speed: sliding to the side, more on each sample
   double vertical_share = 0.1;   ///< of the speed: the base's plane is not the ground's
-  double turn_share = 0.3;  ///< m: of the rate of turn, the skidding that goes with it
+  double turn_share = 0.3;       ///< m: of the rate of turn, the skidding that goes with it
 };
 
 struct InertialFilterOptions {

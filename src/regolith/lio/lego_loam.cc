@@ -79,7 +79,8 @@ std::vector<Eigen::Vector3d> LegoLoam::RemoveMotion(const LidarScan& scan, TimeN
   std::vector<StampedPose> motion;
   for (const TimeNs time : {interval.begin, interval.end}) {
     if (!motion.empty() && time <= motion.back().time) continue;
-    motion.push_back({time, ExpSe3(velocity_lidar_ * SecondsBetween(reference, time))});
+    const double way = options_.deskew ? SecondsBetween(reference, time) : 0.0;
+    motion.push_back({time, ExpSe3(velocity_lidar_ * way)});
   }
   return Deskew(scan, SE3(), motion, SE3());
 }

@@ -14,6 +14,8 @@ struct LegoLoamOptions {
   TwoStepMatcherOptions odometry;
   FeatureMapOptions map;
   KeyframeGraphOptions keyframes;
+  /// Moves each point by constant velocity to the middle of its sweep; needs firing times.
+  bool deskew = true;
   /// 1 σ of what the motion between two scans may differ from that before, for the covariance of
   /// directions that the features do not determine.
   double velocity_rotation_sigma = 0.05;  ///< rad

@@ -107,8 +107,8 @@ std::vector<ScanEstimate> LidarOdometry::EstimateReady(bool all) {
     if (is_waiting && inertial_->has_samples() && !all) break;
     const LidarScan scan = std::move(waiting_.front());
     waiting_.pop_front();
-    if (is_waiting || (inertial_ && scans_ == 0 &&
-                       IntervalOf(scan).end < inertial_->filter().state().time)) {
+    if (is_waiting ||
+        (inertial_ && scans_ == 0 && IntervalOf(scan).end < inertial_->filter().state().time)) {
       ++early_scans_;
       continue;
     }
@@ -130,8 +130,8 @@ ScanMatch LidarOdometry::Match(const std::vector<Eigen::Vector3d>& points_body,
   const size_t count = std::min(kept.size(), static_cast<size_t>(options_.max_points));
   std::vector<Eigen::Vector3d> thinned(count);
   for (size_t i = 0; i < count; ++i) thinned[i] = points_body[kept[i * kept.size() / count]];
-  ScanMatch match = MatchScan(thinned, guess.T_world_body, guess.covariance, maps_,
-                              options_.matcher, threads_);
+  ScanMatch match =
+      MatchScan(thinned, guess.T_world_body, guess.covariance, maps_, options_.matcher, threads_);
   if (!match.used_scan && scans_ > 0 && !points_body.empty()) ++unmatched_scans_;
   return match;
 }
@@ -244,9 +244,10 @@ ScanEstimate LidarOdometry::EstimateWithoutImu(const LidarScan& scan) {
         LogSe3(last_->T_world_body.Inverse() * pose) / SecondsBetween(last_->time, middle);
   }
   last_ = StampedPose{middle, pose};
-  const auto passed = std::find_if(wheels_.begin(), wheels_.end(), [&](const WheelOdometry& sample) {
-    return sample.time >= AddSeconds(middle, -kMostWaiting);
-  });
+  const auto passed =
+      std::find_if(wheels_.begin(), wheels_.end(), [&](const WheelOdometry& sample) {
+        return sample.time >= AddSeconds(middle, -kMostWaiting);
+      });
   wheels_.erase(wheels_.begin(), passed);
   estimate.T_world_body = pose * ExpSe3(velocity_body_ * SecondsBetween(middle, scan.stamp));
   AddDrift(pose, &estimate);

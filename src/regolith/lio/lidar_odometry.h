@@ -20,9 +20,10 @@ namespace regolith {
 
 /// Lidar–inertial odometry: the IMU removes the scan's motion distortion and, with the wheels,
 /// predicts its pose; planes of the map around correct it; the filter learns velocity, biases,
-/// gravity and the wheels' slip from the correction. Without an IMU the wheels are the guess, or the
-/// last motion. Without the lidar, IMU and wheels go alone. The body is the IMU where there is one;
-/// the world is level there, with its origin at the first IMU pose; else it is the first body pose.
+/// gravity and the wheels' slip from the correction. Without an IMU the wheels are the guess, or
+/// the last motion. Without the lidar, IMU and wheels go alone. The body is the IMU where there is
+/// one; the world is level there, with its origin at the first IMU pose; else it is the first body
+/// pose.
 class LidarOdometry : public ScanOdometry {
  public:
   LidarOdometry(const LidarOdometryOptions& options, const RigCalibration& rig,

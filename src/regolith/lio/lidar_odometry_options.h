@@ -27,10 +27,10 @@ struct LidarOdometryOptions {
   double rest_max_speed = 0.03;  ///< m/s, a faster estimate says that it does not
   InertialFilterOptions filter;
   /// Without an IMU, 1 σ of what the motion between two scans may differ from that before.
-  double velocity_rotation_sigma = 0.05;  ///< rad
-  double velocity_position_sigma = 0.3;   ///< m
+  double velocity_rotation_sigma = 0.05;    ///< rad
+  double velocity_position_sigma = 0.3;     ///< m
   WheelPreintegrationOptions wheel_motion;  ///< without an IMU
-  double min_imu_rate = 50.0;             ///< Hz; a slower IMU is reported and not used
+  double min_imu_rate = 50.0;               ///< Hz; a slower IMU is reported and not used
   double max_imu_gap = 0.1;  ///< s between samples; a longer one is bridged by constant velocity
 
   /// Throws CheckError on values that make no odometry.

@@ -13,7 +13,7 @@ struct TwoStepMatcherOptions {
   double position_tolerance = 1e-3;  ///< m
   int min_matches = 10;              ///< fewer leave the guess as it is
   /// Mean squared projection of the matches on a direction below which it keeps the guess.
-  double min_eigenvalue = 1e-4;
+  double min_eigenvalue = 0.03;
 
   /// Throws CheckError on values that match nothing.
   void Check() const;

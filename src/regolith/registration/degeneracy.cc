@@ -38,7 +38,8 @@ ObservableSystem RemoveDegenerateDirections(const PointToPlaneSystem& system, do
   const Matrix6d basis = root.matrixL() * solver.eigenvectors();
   const Vector6d values = kept.cwiseProduct(solver.eigenvalues());
   observable.information = basis * values.asDiagonal() * basis.transpose();
-  const Vector6d gradient = solver.eigenvectors().transpose() * root.matrixL().solve(system.gradient);
+  const Vector6d gradient =
+      solver.eigenvectors().transpose() * root.matrixL().solve(system.gradient);
   observable.gradient = basis * kept.cwiseProduct(gradient);
 
   observable.weakest_ratio = solver.eigenvalues()[0];

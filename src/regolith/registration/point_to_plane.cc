@@ -29,8 +29,8 @@ bool IsPlane(const PlaneFit& plane, const PointToPlaneOptions& options) {
          spread[1] >= options.min_width_ratio * spread[2];
 }
 
-// The error of a fitted normal along an axis within the plane: that of a regression's slope. Over the
-// neighbourhoods of a plane that pass IsPlane, noise and information made of it are then equal
+// The error of a fitted normal along an axis within the plane: that of a regression's slope. Over
+// the neighbourhoods of a plane that pass IsPlane, noise and information made of it are then equal
 // (tests); with the unbiased variance of the residuals noise would be half as much again.
 Eigen::Vector3d NormalError(const PlaneFit& plane, int axis, int count) {
   const double slope =
@@ -156,11 +156,11 @@ PointToPlaneSystem LinearizePointToPlane(Span<const Eigen::Vector3d> points_body
   system.matches = static_cast<int>(magnitudes.size());
   system.scale = RobustScale(std::move(magnitudes), options.range_sigma);
   std::vector<PartialSystem> sums(ChunkCount(points_body.size(), kSumChunkSize));
-  threads->ParallelFor(points_body.size(), kSumChunkSize,
-                       [&](size_t begin, size_t end, size_t chunk) {
-                         sums[chunk] = SumOver(begin, end, points_body, planes, residuals,
-                                               T_map_body, system.scale, options);
-                       });
+  threads->ParallelFor(
+      points_body.size(), kSumChunkSize, [&](size_t begin, size_t end, size_t chunk) {
+        sums[chunk] =
+            SumOver(begin, end, points_body, planes, residuals, T_map_body, system.scale, options);
+      });
   for (const PartialSystem& sum : sums) {
     system.information += sum.information;
     system.noise += sum.noise;

@@ -44,14 +44,15 @@ struct PlaneMatch {
 /// Matches each point (m, body frame) to the plane through its nearest map points. `maps` hold the
 /// same points from fine to coarse voxels: the first in which the neighbourhood is a plane is
 /// taken, so that dense ground is met locally and the sparse rings of far walls still make planes.
-/// Planes of an earlier search in `planes` are kept where the point has hardly moved since; an empty
-/// `planes` is filled.
+/// Planes of an earlier search in `planes` are kept where the point has hardly moved since; an
+/// empty `planes` is filled.
 void FindPlanes(Span<const Eigen::Vector3d> points_body, const SE3& T_map_body,
                 Span<const VoxelMap> maps, const PointToPlaneOptions& options, ThreadPool* threads,
                 std::vector<PlaneMatch>* planes);
 
 /// Linearises the residuals r = nᵀ(T p - c) with Geman–McClure weights, whose scale is estimated
-/// from the residuals themselves (1.4826 · median |r|). Sums are the same for any number of threads.
+/// from the residuals themselves (1.4826 · median |r|). Sums are the same for any number of
+/// threads.
 PointToPlaneSystem LinearizePointToPlane(Span<const Eigen::Vector3d> points_body,
                                          Span<const PlaneMatch> planes, const SE3& T_map_body,
                                          const PointToPlaneOptions& options, ThreadPool* threads);

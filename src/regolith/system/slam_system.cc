@@ -91,13 +91,24 @@ std::vector<FrameReport> SlamSystem::Report(std::vector<ScanEstimate> estimates)
   for (const ScanEstimate& estimate : estimates) {
     Stopwatch stopwatch;
     odometry_.Append({estimate.stamp, estimate.T_world_body});
-    map_.Add(estimate.points);
+    map_.Add(estimate.points, static_cast<uint32_t>(odometry_.size() - 1));
     stopwatch.Lap("output_map");
     reports.push_back(ReportOf(estimate));
     for (const StageTime& stage : stopwatch.stages()) reports.back().stages.push_back(stage);
     if (tracker_ && estimate.gyro_bias) tracker_->SetGyroBias(*estimate.gyro_bias);
   }
   return reports;
+}
+
+std::vector<MapPoint> SlamSystem::MapPoints() const {
+  const std::optional<Trajectory> refined = scan_odometry_->Refined();
+  if (!refined) return map_.points();
+  std::vector<SE3> corrections;
+  for (size_t i = 0; i < odometry_.size(); ++i) {
+    corrections.push_back(refined->poses()[i].T_world_body *
+                          odometry_.poses()[i].T_world_body.Inverse());
+  }
+  return map_.Moved(corrections);
 }
 
 FrameReport SlamSystem::Track(const CameraFrame& frame) {
