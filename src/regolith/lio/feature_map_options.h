@@ -6,7 +6,7 @@ namespace regolith {
 
 struct FeatureMapOptions {
   double edge_spacing = 0.2;     ///< m between edge points, of a scan and of the map
-  double planar_spacing = 0.4;   ///< m, of planar points
+  double planar_spacing = 0.3;   ///< m, of planar points
   double radius = 80.0;          ///< m, features farther from the lidar are forgotten
   double search_distance = 1.0;  ///< m, of a feature from the points of the map around it
   /// Where no plane lies within the search distance, one is looked for this much farther: the rings
