@@ -64,16 +64,20 @@ std::string ScanCells(const FrameReport& frame) {
     std::snprintf(buffer, sizeof buffer, ",%.3e", std::sqrt(frame.covariance(i, i)));
     text += buffer;
   }
-  return text + std::string(11, ',');
+  text += std::string(11, ',');
+  std::snprintf(buffer, sizeof buffer, ",%.3f,%.3f,%.3f,%.3f", frame.weakest_ratio,
+                frame.weakest_position.x(), frame.weakest_position.y(), frame.weakest_position.z());
+  return text + buffer;
 }
 
 std::string ImageCells(const FrontendStatus& status) {
   const DetectionStatus& detection = status.detection;
   char buffer[240];
-  std::snprintf(buffer, sizeof buffer, ",,%d,,,,,,,,,,,,%d,%d,%d,%d,%.2f,%d,%d,%d,%.6g,%.6g,%.6g",
-                status.tracked, status.detected, status.recovered, status.rejected, status.started,
-                status.mean_age, detection.cells, detection.cells_filled, detection.rounds,
-                detection.threshold_min, detection.threshold_median, detection.threshold_max);
+  std::snprintf(buffer, sizeof buffer,
+                ",,%d,,,,,,,,,,,,%d,%d,%d,%d,%.2f,%d,%d,%d,%.6g,%.6g,%.6g,,,,", status.tracked,
+                status.detected, status.recovered, status.rejected, status.started, status.mean_age,
+                detection.cells, detection.cells_filled, detection.rounds, detection.threshold_min,
+                detection.threshold_median, detection.threshold_max);
   return buffer;
 }
 
@@ -83,7 +87,8 @@ std::string StatusTable(const std::vector<FrameReport>& frames) {
       "degenerate_directions,sigma_roll_rad,sigma_pitch_rad,sigma_yaw_rad,sigma_x_m,sigma_y_m,"
       "sigma_z_m,detected_features,recovered_features,rejected_features,new_features,mean_age,"
       "cells,"
-      "cells_filled,threshold_rounds,threshold_min,threshold_median,threshold_max\n";
+      "cells_filled,threshold_rounds,threshold_min,threshold_median,threshold_max,weakest_ratio,"
+      "weakest_x,weakest_y,weakest_z\n";
   for (const FrameReport& frame : frames) {
     text += SecondsText(frame.stamp) + "," + frame.leader;
     text += frame.source == FrameSource::kScan ? ScanCells(frame) : ImageCells(frame.features);

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "regolith/core/check.h"
-#include "regolith/core/random.h"
 
 namespace regolith {
 namespace {
@@ -86,18 +85,15 @@ VoxelMap::VoxelMap(const VoxelMapOptions& options)
     : options_(options),
       inverse_size_(1.0 / options.voxel_size),
       radius_(options.radius),
-      lanes_((static_cast<size_t>(options.max_points_per_voxel) + kLane - 1) / kLane * kLane) {
+      lanes_((static_cast<size_t>(options.max_points_per_voxel) + kLane - 1) / kLane * kLane),
+      table_(static_cast<size_t>(options.max_voxels)) {
   options.Check();
   // As many points as fit cover a square of the voxel's face evenly: surfaces, not volumes, are
   // mapped.
   squared_spacing_ =
       static_cast<float>(options.voxel_size * options.voxel_size / options.max_points_per_voxel);
-  const auto most = static_cast<size_t>(options.max_voxels);
-  size_t slots = 1024;
-  while (slots < 2 * most) slots *= 2;
-  slots_.assign(slots, kEmptySlot);
-  keys_.reserve(most);
-  counts_.reserve(most);
+  keys_.reserve(static_cast<size_t>(options.max_voxels));
+  counts_.reserve(static_cast<size_t>(options.max_voxels));
 }
 
 void VoxelMap::Add(Span<const Eigen::Vector3d> points, const Eigen::Vector3d& centre) {
@@ -161,10 +157,11 @@ Neighbours VoxelMap::Nearest(const Eigen::Vector3d& query, int count, double max
                        : z > 0 ? above[2]
                                : 0.0F);
     if (gap >= nearest.worst()) continue;
-    const uint32_t* const voxel = Find(PackVoxel(centre.x() + x, centre.y() + y, centre.z() + z));
-    if (voxel == nullptr) continue;
-    const float* const coordinates = Coordinates(*voxel);
-    const size_t held = counts_[*voxel];
+    const VoxelKey key = PackVoxel(centre.x() + x, centre.y() + y, centre.z() + z);
+    const uint32_t voxel = table_.Find(key, KeyAt());
+    if (voxel == VoxelTable::kNone) continue;
+    const float* const coordinates = Coordinates(voxel);
+    const size_t held = counts_[voxel];
     for (size_t first = 0; first < held; first += kLane) {
       const float* const lane = coordinates + first;
       const Lane squared = (LaneMap(lane) - query_float.x()).square() +
@@ -172,7 +169,7 @@ Neighbours VoxelMap::Nearest(const Eigen::Vector3d& query, int count, double max
                            (LaneMap(lane + 2 * lanes_) - query_float.z()).square();
       const size_t filled = std::min(kLane, held - first);
       for (size_t i = 0; i < filled; ++i) {
-        nearest.Offer(squared[static_cast<Eigen::Index>(i)], *voxel,
+        nearest.Offer(squared[static_cast<Eigen::Index>(i)], voxel,
                       static_cast<uint32_t>(first + i));
       }
     }
@@ -199,27 +196,13 @@ Eigen::Vector3f VoxelMap::PointAt(size_t voxel, size_t index) const {
   return {x[0], x[lanes_], x[2 * lanes_]};
 }
 
-size_t VoxelMap::SlotOf(VoxelKey key) const {
-  const size_t mask = slots_.size() - 1;
-  size_t slot = Scramble(key) & mask;
-  while (slots_[slot] != kEmptySlot && keys_[slots_[slot]] != key) slot = (slot + 1) & mask;
-  return slot;
-}
-
-const uint32_t* VoxelMap::Find(VoxelKey key) const {
-  const uint32_t& slot = slots_[SlotOf(key)];
-  return slot == kEmptySlot ? nullptr : &slot;
-}
-
 uint32_t VoxelMap::FindOrInsert(VoxelKey key, const Eigen::Vector3d& centre) {
-  size_t slot = SlotOf(key);
-  if (slots_[slot] != kEmptySlot) return slots_[slot];
-  if (voxel_count() == static_cast<size_t>(options_.max_voxels)) {
-    MakeRoom(centre);
-    slot = SlotOf(key);
-  }
-  slots_[slot] = NewVoxel(key);
-  return slots_[slot];
+  uint32_t voxel = table_.Find(key, KeyAt());
+  if (voxel != VoxelTable::kNone) return voxel;
+  if (voxel_count() == static_cast<size_t>(options_.max_voxels)) MakeRoom(centre);
+  voxel = NewVoxel(key);
+  table_.Insert(key, voxel, KeyAt());
+  return voxel;
 }
 
 uint32_t VoxelMap::NewVoxel(VoxelKey key) {
@@ -239,7 +222,6 @@ uint32_t VoxelMap::NewVoxel(VoxelKey key) {
 }
 
 void VoxelMap::MakeRoom(const Eigen::Vector3d& centre) {
-  // A point that is about to be added has a voxel without points yet; it is not among the counted.
   while (voxel_count() > static_cast<size_t>(0.95 * options_.max_voxels)) {
     radius_ *= kShrinkage;
     ForgetFarFrom(centre);
@@ -247,16 +229,7 @@ void VoxelMap::MakeRoom(const Eigen::Vector3d& centre) {
 }
 
 void VoxelMap::Erase(size_t voxel) {
-  // What follows in the run of slots moves up where its own place allows (Knuth 1998, 6.4, R).
-  const size_t mask = slots_.size() - 1;
-  size_t hole = SlotOf(keys_[voxel]);
-  for (size_t slot = (hole + 1) & mask; slots_[slot] != kEmptySlot; slot = (slot + 1) & mask) {
-    const size_t home = Scramble(keys_[slots_[slot]]) & mask;
-    if (((slot - home) & mask) < ((slot - hole) & mask)) continue;
-    slots_[hole] = slots_[slot];
-    hole = slot;
-  }
-  slots_[hole] = kEmptySlot;
+  table_.Erase(keys_[voxel], KeyAt());
   counts_[voxel] = 0;
   free_.push_back(static_cast<uint32_t>(voxel));
 }

@@ -11,6 +11,7 @@
 
 #include "regolith/cloud/voxel_key.h"
 #include "regolith/cloud/voxel_map_options.h"
+#include "regolith/cloud/voxel_table.h"
 #include "regolith/core/span.h"
 
 namespace regolith {
@@ -53,7 +54,6 @@ class VoxelMap {
   std::vector<Eigen::Vector3d> Points() const;
 
  private:
-  static constexpr uint32_t kEmptySlot = 0xffffffffU;
   static constexpr size_t kVoxelsPerPage = 256;
 
   /// A voxel's coordinates: lanes_ of x, then as many of y and of z.
@@ -64,21 +64,21 @@ class VoxelMap {
     return const_cast<VoxelMap*>(this)->Coordinates(voxel);
   }
   Eigen::Vector3f PointAt(size_t voxel, size_t index) const;
-  const uint32_t* Find(VoxelKey key) const;
+  auto KeyAt() const {
+    return [this](uint32_t voxel) { return keys_[voxel]; };
+  }
   uint32_t FindOrInsert(VoxelKey key, const Eigen::Vector3d& centre);
   uint32_t NewVoxel(VoxelKey key);
   void Forget(size_t begin, size_t end, const Eigen::Vector3d& centre);
   void Erase(size_t voxel);
   void MakeRoom(const Eigen::Vector3d& centre);
-  size_t SlotOf(VoxelKey key) const;
 
   VoxelMapOptions options_;
   double inverse_size_;
   double radius_;
   float squared_spacing_;
-  size_t lanes_;  ///< max_points_per_voxel, rounded up to whole vectors of the processor
-  // Open addressing: slots hold indices of voxels. A voxel keeps its index as long as it lives.
-  std::vector<uint32_t> slots_;
+  size_t lanes_;      ///< max_points_per_voxel, rounded up to whole vectors of the processor
+  VoxelTable table_;  ///< a voxel keeps its index as long as it lives
   std::vector<VoxelKey> keys_;
   std::vector<uint16_t> counts_;  ///< 0: a free voxel
   std::vector<uint32_t> free_;

@@ -48,6 +48,12 @@ void Fields(Archive& archive, RestDetectionOptions& rest) {
 }
 
 template <typename Archive>
+void Fields(Archive& archive, MapDriftOptions& drift) {
+  archive("rotation_length", drift.rotation_length);
+  archive("position_length", drift.position_length);
+}
+
+template <typename Archive>
 void Fields(Archive& archive, WheelVelocityOptions& wheels) {
   archive("slip_sigma", wheels.slip_sigma);
   archive("slip_walk", wheels.slip_walk);
@@ -88,12 +94,13 @@ void Fields(Archive& archive, LidarOdometryOptions& lio) {
   archive("map_growth", lio.map_growth);
   archive("scan_voxel_size", lio.scan_voxel_size);
   archive("max_points", lio.max_points);
-  archive("map_renewal_length", lio.map_renewal_length);
+  archive("drift", lio.drift);
   archive("matcher", lio.matcher);
   archive("initialization_window", lio.initialization_window);
   archive("rest", lio.rest);
   archive("rest_window", lio.rest_window);
   archive("rest_max_speed", lio.rest_max_speed);
+  archive("rest_max_rate", lio.rest_max_rate);
   archive("filter", lio.filter);
   archive("velocity_rotation_sigma", lio.velocity_rotation_sigma);
   archive("velocity_position_sigma", lio.velocity_position_sigma);

@@ -103,7 +103,14 @@ bool InertialTracker::AbsorbRest() {
   const std::vector<ImuSample> window = SamplesBetween(samples_, begin, time);
   const RestReport report = DetectRest(window, rig_.gravity, options_.rest);
   if (!report.at_rest) return false;
-  filter_->AbsorbRest(report.statistics);
+  // A slow turn is as still as rest is: the rate has to be the bias.
+  const Eigen::Vector3d rate = report.statistics.mean_rate - filter_->state().gyro_bias;
+  if (rate.norm() > options_.rest_max_rate) return false;
+  // Windows that overlap would count their samples twice.
+  if (SecondsBetween(last_rest_, time) >= options_.rest_window) {
+    filter_->AbsorbRest(report.statistics);
+    last_rest_ = time;
+  }
   return true;
 }
 

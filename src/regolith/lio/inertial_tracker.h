@@ -41,7 +41,7 @@ class InertialTracker {
   /// absorbed where they were measured.
   std::vector<StampedPose> PropagateTo(TimeNs end);
 
-  /// Absorbs rest where the last samples are still and the filter says so too; whether it did.
+  /// Whether the rover stands: the last samples are still, and the filter says so too. Absorbs that.
   bool AbsorbRest();
 
   /// Drops samples that lie behind.
@@ -65,6 +65,7 @@ class InertialTracker {
   std::deque<Gap> gaps_;
   std::deque<WheelOdometry> wheels_;
   std::optional<InertialFilter> filter_;
+  TimeNs last_rest_ = 0;  ///< end of the last window of rest that was absorbed
   size_t gap_count_ = 0;
   double longest_gap_ = 0.0;
   std::string start_notice_;

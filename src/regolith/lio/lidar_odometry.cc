@@ -3,6 +3,7 @@
 #include "regolith/lio/lidar_odometry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "regolith/cloud/downsample.h"
@@ -37,12 +38,12 @@ void LidarOdometryOptions::Check() const {
   matcher.Check();
   rest.Check();
   wheel_motion.Check();
+  drift.Check();
   if (!lidar && !imu) throw InputError("lio", "lidar and imu are both off; expected one of them");
   REGOLITH_CHECK(scan_voxel_size > 0.0, "scan_voxel_size=", scan_voxel_size);
   REGOLITH_CHECK(max_points >= 100, "max_points=", max_points);
   REGOLITH_CHECK(map_levels >= 1 && map_levels <= 4, "map_levels=", map_levels);
   REGOLITH_CHECK(map_growth > 1.0, "map_growth=", map_growth);
-  REGOLITH_CHECK(map_renewal_length > 0.0, "map_renewal_length=", map_renewal_length);
   REGOLITH_CHECK(initialization_window >= rest.min_duration,
                  "initialization_window=", initialization_window);
   REGOLITH_CHECK(rest_window >= rest.min_duration, "rest_window=", rest_window);
@@ -51,7 +52,7 @@ void LidarOdometryOptions::Check() const {
 
 LidarOdometry::LidarOdometry(const LidarOdometryOptions& options, const RigCalibration& rig,
                              ThreadPool* threads)
-    : options_(options), threads_(threads), drift_(options.map_renewal_length) {
+    : options_(options), threads_(threads), drift_(options.drift) {
   options.Check();
   VoxelMapOptions level = options.map;
   for (int i = 0; i < options.map_levels; ++i, level.voxel_size *= options.map_growth) {
@@ -81,6 +82,13 @@ std::vector<ScanEstimate> LidarOdometry::AddWheels(const WheelOdometry& odometry
 
 std::vector<ScanEstimate> LidarOdometry::AddScan(const LidarScan& scan) {
   waiting_.push_back(scan);
+  std::vector<LidarPoint>& points = waiting_.back().points;
+  const auto finite = [](const LidarPoint& point) {
+    return point.position.allFinite() && std::isfinite(point.time);
+  };
+  const auto end = std::stable_partition(points.begin(), points.end(), finite);
+  invalid_points_ += static_cast<size_t>(points.end() - end);
+  points.erase(end, points.end());
   return EstimateReady(false);
 }
 
@@ -265,6 +273,7 @@ std::vector<std::string> LidarOdometry::Notices() const {
     if (count > 0) notices.push_back(Concatenate(count, what));
   };
   add(early_scans_, " scans came before the first IMU sample and have no pose");
+  add(invalid_points_, " points were not finite and were left out");
   add(empty_scans_, " scans had no points");
   add(unmatched_scans_, " scans met too few planes of the map; the prediction stands for them");
   add(repeated_scans_, " scans were not later than the one before and were left out");

@@ -73,6 +73,7 @@ class LidarOdometry : public ScanOdometry {
 
   std::optional<TimeNs> last_stamp_;
   size_t scans_ = 0;
+  size_t invalid_points_ = 0;
   size_t empty_scans_ = 0;
   size_t early_scans_ = 0;
   size_t unmatched_scans_ = 0;

@@ -6,6 +6,7 @@
 #include "regolith/imu/rest_detection_options.h"
 #include "regolith/imu/wheel_preintegration_options.h"
 #include "regolith/lio/inertial_filter_options.h"
+#include "regolith/lio/map_drift_options.h"
 #include "regolith/lio/scan_matcher.h"
 
 namespace regolith {
@@ -20,11 +21,12 @@ struct LidarOdometryOptions {
   ScanMatcherOptions matcher;
   double scan_voxel_size = 0.35;       ///< m, one point a voxel is matched
   int max_points = 6000;               ///< more than these are thinned further
-  double map_renewal_length = 10.0;    ///< m of way after which the map around is new (MapDrift)
+  MapDriftOptions drift;
   double initialization_window = 1.0;  ///< s of IMU samples that start the filter
   RestDetectionOptions rest;
   double rest_window = 0.5;  ///< s of IMU samples that must be still to say that the rover stands
   double rest_max_speed = 0.03;  ///< m/s, a faster estimate says that it does not
+  double rest_max_rate = 0.005;  ///< rad/s, off the gyro's bias: a faster turn says so too
   InertialFilterOptions filter;
   /// Without an IMU, 1 σ of what the motion between two scans may differ from that before.
   double velocity_rotation_sigma = 0.05;    ///< rad

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "regolith/core/error.h"
@@ -210,6 +211,179 @@ TEST(LidarOdometry, SamplesInUnitsOfGAreRefused) {
     }
   };
   EXPECT_THROW(feed(), InputError);
+}
+
+/// Feeds IMU and scans that were tampered with; the wheels tell the truth but for `slip`.
+std::vector<ScanEstimate> DriveWith(LidarOdometry& odometry, double seconds,
+                                    const std::function<void(int, LidarScan*)>& tamper,
+                                    double slip = 0.0) {
+  std::vector<ScanEstimate> estimates;
+  const auto keep = [&](std::vector<ScanEstimate> more) {
+    for (ScanEstimate& estimate : more) estimates.push_back(std::move(estimate));
+  };
+  for (int i = 0; i * 0.005 < seconds; ++i) {
+    const double t = i * 0.005;
+    keep(odometry.AddImu(ImuAt(t)));
+    if (i % 4 == 0) {
+      const SE3 step = BodyAt(t - 1e-3).Inverse() * BodyAt(t + 1e-3);
+      WheelOdometry wheels;
+      wheels.time = FromSeconds(t);
+      wheels.linear_velocity_base.x() = (1.0 + slip) * step.translation.x() / 2e-3;
+      keep(odometry.AddWheels(wheels));
+    }
+    if (i % 20 != 0) continue;
+    LidarScan scan = ScanAt(i / 20, false);
+    tamper(i / 20, &scan);
+    keep(odometry.AddScan(scan));
+  }
+  keep(odometry.Finish());
+  return estimates;
+}
+
+TEST(LidarOdometry, SurvivesNinetyPercentDropOut) {
+  ThreadPool threads(2);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  const auto estimates = DriveWith(odometry, 10.0, [](int index, LidarScan* scan) {
+    if (index < 45 || index > 95) return;
+    std::vector<LidarPoint> kept;
+    for (size_t i = 0; i < scan->points.size(); i += 10) kept.push_back(scan->points[i]);
+    scan->points = kept;
+  });
+  ASSERT_EQ(estimates.size(), 100U);
+  EXPECT_LT(WorstError(estimates), 0.15);
+}
+
+TEST(LidarOdometry, SurvivesPointsThatAreNoNumbersAndSwappedRings) {
+  ThreadPool threads(2);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  const auto estimates = DriveWith(odometry, 6.0, [](int, LidarScan* scan) {
+    for (size_t i = 0; i < scan->points.size(); ++i) {
+      LidarPoint& point = scan->points[i];
+      point.ring = static_cast<uint16_t>(15 - point.ring);
+      if (i % 17 == 0) point.position.setConstant(std::nanf(""));
+      if (i % 19 == 0) point.position.x() = INFINITY;
+    }
+  });
+  ASSERT_EQ(estimates.size(), 60U);
+  EXPECT_LT(WorstError(estimates), 0.10);
+  for (const ScanEstimate& estimate : estimates) {
+    EXPECT_TRUE(estimate.covariance.allFinite());
+    for (const MapPoint& point : estimate.points) ASSERT_TRUE(point.position.allFinite());
+  }
+  ASSERT_EQ(odometry.Notices().size(), 1U);
+  EXPECT_NE(odometry.Notices()[0].find("not finite"), std::string::npos);
+}
+
+TEST(LidarOdometry, ScansThatComeTwiceAreLeftOutAndReported) {
+  ThreadPool threads(2);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  size_t count = 0;
+  for (int i = 0; i < 800; ++i) {
+    count += odometry.AddImu(ImuAt(i * 0.005)).size();
+    if (i % 20 != 0) continue;
+    count += odometry.AddScan(ScanAt(i / 20, false)).size();
+    if (i % 100 == 0) count += odometry.AddScan(ScanAt(i / 20, false)).size();
+  }
+  count += odometry.Finish().size();
+  EXPECT_EQ(count, 40U);
+  ASSERT_EQ(odometry.Notices().size(), 1U);
+  EXPECT_NE(odometry.Notices()[0].find("8 scans were not later"), std::string::npos);
+}
+
+TEST(LidarOdometry, AWrongTimeOffsetCostsLittle) {
+  ThreadPool threads(2);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  const auto estimates = DriveWith(
+      odometry, 8.0, [](int, LidarScan* scan) { scan->stamp = AddSeconds(scan->stamp, 0.02); });
+  // The pose is that of the lidar 0.02 s before the stamp, at up to 1 m/s.
+  EXPECT_LT(WorstError(estimates), 0.10);
+}
+
+TEST(LidarOdometry, OnAPlaneItSaysWhatItDoesNotKnow) {
+  ThreadPool threads(2);
+  const auto flatten = [](int, LidarScan* scan) {
+    // Level ground 1.7 m below the sensor, as far as the ring reaches it.
+    Random random(static_cast<uint64_t>(scan->stamp));
+    std::vector<LidarPoint> flat;
+    for (LidarPoint point : scan->points) {
+      const Eigen::Vector3f direction = point.position.normalized();
+      if (direction.z() > -0.05F) continue;
+      const double range = -1.7 / static_cast<double>(direction.z()) + random.Gaussian(0.0, 0.02);
+      point.position = static_cast<float>(range) * direction;
+      flat.push_back(point);
+    }
+    scan->points = flat;
+  };
+  LidarOdometry alone({}, Rig(true), &threads);
+  size_t degenerate = 0;
+  bool contained = true;
+  const auto estimates = DriveWith(alone, 10.0, flatten);
+  for (const ScanEstimate& estimate : estimates) {
+    degenerate += estimate.match.observable.degenerate_directions > 0 ? 1 : 0;
+    const Eigen::Vector3d error =
+        estimate.T_world_body.translation - BodyAt(ToSeconds(estimate.stamp)).translation;
+    for (int axis = 0; axis < 3; ++axis) {
+      contained = contained && std::abs(error[axis]) <
+                                   3.0 * std::sqrt(estimate.covariance(3 + axis, 3 + axis)) + 0.01;
+    }
+  }
+  EXPECT_GE(degenerate, 90U);
+  EXPECT_TRUE(contained);
+
+  RigCalibration rig = Rig(true);
+  rig.wheels.emplace();
+  LidarOdometryOptions options;
+  options.wheels = true;
+  LidarOdometry with_wheels(options, rig, &threads);
+  const double slip = 0.03;
+  const auto helped = DriveWith(with_wheels, 10.0, flatten, slip);
+  // 5.5 m of way; the wheels' error is theirs, nothing is added to it.
+  EXPECT_LT(WorstError(helped), 1.1 * slip * 5.5);
+}
+
+TEST(LidarOdometry, TheLidarTeachesTheSlipOfTheWheels) {
+  ThreadPool threads(2);
+  RigCalibration rig = Rig(true);
+  rig.wheels.emplace();
+  LidarOdometryOptions options;
+  options.wheels = true;
+  LidarOdometry odometry(options, rig, &threads);
+  // The lidar is lost for the last two seconds.
+  const auto blind = [](int index, LidarScan* scan) {
+    if (index >= 80) scan->points.clear();
+  };
+  const auto estimates = DriveWith(odometry, 10.0, blind, 0.1);
+  ASSERT_EQ(estimates.size(), 100U);
+  EXPECT_EQ(estimates.back().leader, "wheels+imu");
+  // Wheels that were believed would be 0.2 m too far after them.
+  EXPECT_LT(WorstError(estimates), 0.10);
+}
+
+TEST(LidarOdometry, WheelsAreTheGuessWithoutAnImu) {
+  ThreadPool threads(2);
+  RigCalibration rig = Rig(false);
+  rig.wheels.emplace();
+  LidarOdometryOptions options;
+  options.wheels = true;
+  LidarOdometry odometry(options, rig, &threads);
+  std::vector<ScanEstimate> estimates;
+  const auto keep = [&](std::vector<ScanEstimate> more) {
+    for (ScanEstimate& estimate : more) estimates.push_back(std::move(estimate));
+  };
+  for (int i = 0; i < 500; ++i) {
+    WheelOdometry wheels;
+    wheels.time = FromSeconds(i * 0.02);
+    wheels.T_odom_base = BodyAt(i * 0.02);
+    keep(odometry.AddWheels(wheels));
+    if (i % 5 != 0) continue;
+    LidarScan scan = ScanAt(i / 5, true);
+    // For half a second there is nothing but the wheels.
+    if (i > 300 && i < 325) scan.points.clear();
+    keep(odometry.AddScan(scan));
+  }
+  keep(odometry.Finish());
+  ASSERT_EQ(estimates.size(), 100U);
+  EXPECT_LT(WorstError(estimates), 0.10);
 }
 
 TEST(LidarOdometry, SameBytesForAnyNumberOfThreads) {

@@ -17,7 +17,11 @@ void MapDrift::Advance(const SE3& T_map_from, const SE3& T_map_to,
   transition.bottomLeftCorner<3, 3>() =
       -T_map_from.rotation.toRotationMatrix() * Hat(step.translation);
   covariance_ = (transition * covariance_ * transition.transpose()).eval();
-  covariance_ += (step.translation.norm() / renewal_length_) * match_covariance;
+  Vector6d shares;
+  shares << Eigen::Vector3d::Constant(1.0 / options_.rotation_length),
+      Eigen::Vector3d::Constant(1.0 / options_.position_length);
+  const Vector6d roots = (step.translation.norm() * shares).cwiseSqrt();
+  covariance_ += roots.asDiagonal() * match_covariance * roots.asDiagonal();
 }
 
 }  // namespace regolith

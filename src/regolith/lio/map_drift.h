@@ -3,6 +3,7 @@
 #pragma once
 
 #include "regolith/geometry/se3.h"
+#include "regolith/lio/map_drift_options.h"
 
 namespace regolith {
 
@@ -11,8 +12,7 @@ namespace regolith {
 /// placed by matches whose errors it keeps, so the error grows with the way, not with time.
 class MapDrift {
  public:
-  /// `renewal_length`: m of way after which a match's error has gone into the map once.
-  explicit MapDrift(double renewal_length) : renewal_length_(renewal_length) {}
+  explicit MapDrift(const MapDriftOptions& options) : options_(options) {}
 
   /// Moves on from one pose to the next. `match_covariance`: [rotation (right), position], of the
   /// later pose against the map.
@@ -22,7 +22,7 @@ class MapDrift {
   const Matrix6d& covariance() const { return covariance_; }
 
  private:
-  double renewal_length_;
+  MapDriftOptions options_;
   Matrix6d covariance_ = Matrix6d::Zero();
 };
 

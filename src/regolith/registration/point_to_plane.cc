@@ -16,6 +16,9 @@ namespace {
 
 constexpr size_t kChunkSize = 128;
 constexpr size_t kSumChunkSize = 512;
+// A piece of one ring is as wide as the range's noise makes it, and that lies along the beam: the
+// plane through it leans towards the sensor.
+constexpr double kWidthSigmas = 3.0;
 // rad; beyond it the small-angle model says nothing.
 constexpr double kMostNormalError = 1.0;
 // Makes the median of |r| a standard deviation for Gaussian r.
@@ -26,7 +29,8 @@ constexpr double kKernelSigmas = 3.0;
 bool IsPlane(const PlaneFit& plane, const PointToPlaneOptions& options) {
   const Eigen::Vector3d spread = plane.variances.cwiseSqrt();
   return spread[0] <= options.max_thickness_ratio * spread[1] &&
-         spread[1] >= options.min_width_ratio * spread[2];
+         spread[1] >= options.min_width_ratio * spread[2] &&
+         spread[1] >= kWidthSigmas * options.range_sigma;
 }
 
 // The error of a fitted normal along an axis within the plane: that of a regression's slope. Over

@@ -13,7 +13,7 @@ struct PointToPlaneOptions {
   /// Second over first spread within the plane: less is a line, whose normal is not determined.
   double min_width_ratio = 0.15;
   double search_again_distance = 0.02;  ///< m, a point that moved less keeps its plane
-  double range_sigma = 0.02;            ///< m, floor of the residuals' scale
+  double range_sigma = 0.02;            ///< m, floor of the residuals' scale; a plane is wider
   /// Residuals of neighbouring points share errors of the map: each counts as this share of an
   /// independent one.
   double independence = 0.02;

@@ -10,12 +10,20 @@ namespace regolith {
 
 void MapBuilderOptions::Check() const {
   REGOLITH_CHECK(voxel_size > 0.0, "voxel_size=", voxel_size);
-  REGOLITH_CHECK(max_points > 0, "max_points=", max_points);
+  REGOLITH_CHECK(max_points > 0 && max_points < 1'000'000'000, "max_points=", max_points);
 }
 
 MapBuilder::MapBuilder(const MapBuilderOptions& options)
-    : options_(options), voxel_size_(options.voxel_size) {
+    : options_(options),
+      voxel_size_(options.voxel_size),
+      occupied_(static_cast<size_t>(options.max_points) + 1) {
   options.Check();
+  points_.reserve(static_cast<size_t>(options.max_points) + 1);
+  scans_.reserve(static_cast<size_t>(options.max_points) + 1);
+}
+
+VoxelKey MapBuilder::KeyOfPoint(const MapPoint& point) const {
+  return KeyOf(point.position.cast<double>(), 1.0 / voxel_size_);
 }
 
 void MapBuilder::Add(Span<const MapPoint> points, uint32_t scan) {
@@ -23,8 +31,10 @@ void MapBuilder::Add(Span<const MapPoint> points, uint32_t scan) {
 }
 
 void MapBuilder::AddPoint(const MapPoint& point, uint32_t scan) {
-  const VoxelKey key = KeyOf(point.position.cast<double>(), 1.0 / voxel_size_);
-  if (!occupied_.insert(key).second) return;
+  const auto key_at = [this](uint32_t index) { return KeyOfPoint(points_[index]); };
+  const VoxelKey key = KeyOfPoint(point);
+  if (occupied_.Find(key, key_at) != VoxelTable::kNone) return;
+  occupied_.Insert(key, static_cast<uint32_t>(points_.size()), key_at);
   points_.push_back(point);
   scans_.push_back(scan);
   if (static_cast<int64_t>(points_.size()) > options_.max_points) Coarsen();
@@ -33,7 +43,9 @@ void MapBuilder::AddPoint(const MapPoint& point, uint32_t scan) {
 void MapBuilder::Coarsen() {
   const std::vector<MapPoint> old_points = std::exchange(points_, {});
   const std::vector<uint32_t> old_scans = std::exchange(scans_, {});
-  occupied_.clear();
+  points_.reserve(old_points.capacity());
+  scans_.reserve(old_scans.capacity());
+  occupied_ = VoxelTable(static_cast<size_t>(options_.max_points) + 1);
   voxel_size_ *= 2.0;
   for (size_t i = 0; i < old_points.size(); ++i) AddPoint(old_points[i], old_scans[i]);
 }

@@ -3,11 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_set>
 #include <vector>
 
 #include "regolith/cloud/map_point.h"
-#include "regolith/cloud/voxel_key.h"
+#include "regolith/cloud/voxel_table.h"
 #include "regolith/core/span.h"
 #include "regolith/geometry/se3.h"
 
@@ -38,6 +37,7 @@ class MapBuilder {
   double voxel_size() const { return voxel_size_; }
 
  private:
+  VoxelKey KeyOfPoint(const MapPoint& point) const;
   void Coarsen();
   void AddPoint(const MapPoint& point, uint32_t scan);
 
@@ -45,7 +45,7 @@ class MapBuilder {
   double voxel_size_;
   std::vector<MapPoint> points_;
   std::vector<uint32_t> scans_;  ///< of the points
-  std::unordered_set<VoxelKey> occupied_;
+  VoxelTable occupied_;
 };
 
 }  // namespace regolith

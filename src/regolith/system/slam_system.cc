@@ -44,6 +44,8 @@ FrameReport ReportOf(const ScanEstimate& estimate) {
   report.inliers = estimate.match.system.inliers;
   report.residual_scale = estimate.match.system.scale;
   report.degenerate_directions = estimate.match.observable.degenerate_directions;
+  report.weakest_ratio = estimate.match.observable.weakest_ratio;
+  report.weakest_position = estimate.match.observable.weakest_position;
   report.covariance = estimate.covariance;
   report.stages = estimate.stages;
   return report;

@@ -42,8 +42,11 @@ struct FrameReport {
   int points = 0;
   int matches = 0;
   double inliers = 0.0;
-  double residual_scale = 0.0;  ///< m
-  int degenerate_directions = 0;
+  double residual_scale = 0.0;    ///< m
+  int degenerate_directions = 0;  ///< of six, that the scan says nothing of
+  /// Information over noise where that is least, and the direction (unit, world): ObservableSystem.
+  double weakest_ratio = 0.0;
+  Eigen::Vector3d weakest_position = Eigen::Vector3d::Zero();
   Matrix6d covariance = Matrix6d::Zero();  ///< [rotation (right, rad), position (m)]
 
   FrontendStatus features;  ///< of an image
