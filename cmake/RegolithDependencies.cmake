@@ -9,6 +9,7 @@ find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs video calib3d
 find_package(embree 3.13 REQUIRED)
 find_package(GDAL 3.6 REQUIRED)
 find_package(yaml-cpp REQUIRED)
+find_package(Ceres 2.1 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 

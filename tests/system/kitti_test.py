@@ -39,6 +39,14 @@ class Kitti(ProgramTest):
         metrics = evaluate(DATA / "kitti_raw" / "ground_truth_velocity_sweep_end.tum", out / "trajectory.tum")
         self.assertLess(metrics["ape"]["rmse"], 0.20)
 
+    def test_lego_loam_is_no_crippled_baseline(self):
+        out = self.folder / "run_lego_loam"
+        result = call("run", self.unpack(), "--pipeline", "lego_loam", "--out", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(len(read_tum(out / "trajectory.tum")), 154)
+        metrics = evaluate(DATA / "kitti_raw" / "ground_truth_velocity_sweep_end.tum", out / "trajectory.tum")
+        self.assertLess(metrics["ape"]["rmse"], 0.25)
+
 
 if __name__ == "__main__":
     if not DATE.is_dir():

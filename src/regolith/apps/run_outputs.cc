@@ -113,9 +113,10 @@ nlohmann::ordered_json SummaryOf(const RunSetup& setup, const SlamSystem& system
   summary["peak_rss_mb"] = record.peak_rss_mb;
   summary["frames"] = system.images_seen();
   summary["scans"] = system.scans_seen();
-  summary["keyframes"] = 0;
-  summary["loops_accepted"] = 0;
-  summary["loops_rejected"] = 0;
+  const KeyframeCounts counts = system.keyframe_counts();
+  summary["keyframes"] = counts.keyframes;
+  summary["loops_accepted"] = counts.loops_accepted;
+  summary["loops_rejected"] = counts.loops_rejected;
   summary["coverage"] = system.scans_seen() == 0 ? 0.0
                                                  : static_cast<double>(system.trajectory().size()) /
                                                        static_cast<double>(system.scans_seen());
@@ -208,7 +209,7 @@ void WriteRunOutputs(const std::string& folder, const RunSetup& setup, const Sla
   const bool partial = !record.complete;
   WriteTum(folder + "/trajectory.tum", InFrame(system.trajectory(), setup.T_body_frame), partial);
   WriteTum(folder + "/odometry.tum", InFrame(system.odometry(), setup.T_body_frame), partial);
-  WritePly(folder + "/map.ply", system.map_points(), partial);
+  WritePly(folder + "/map.ply", system.MapPoints(), partial);
   WriteTable(folder + "/timing.csv", TimingTable(record.frames), record.complete);
   WriteTable(folder + "/status.csv", StatusTable(record.frames), record.complete);
   const std::string configuration = ResolvedConfiguration(setup);

@@ -53,7 +53,7 @@ void AddError(const Evaluation& evaluation, TimeNs start, ReportData* data) {
 }
 
 void AddMap(const SlamSystem& system, ReportData* data) {
-  const auto& points = system.map_points();
+  const std::vector<MapPoint> points = system.MapPoints();
   const size_t step = points.size() / kReportMapPoints + 1;
   for (size_t i = 0; i < points.size(); i += step) {
     data->map.push_back({points[i].position, points[i].position.z()});

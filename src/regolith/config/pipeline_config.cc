@@ -3,6 +3,7 @@
 #include "regolith/config/pipeline_config.h"
 
 #include "regolith/config/features_fields_internal.h"
+#include "regolith/config/lego_loam_fields_internal.h"
 #include "regolith/core/error.h"
 
 namespace regolith {
@@ -115,11 +116,25 @@ void Fields(Archive& archive, MapBuilderOptions& map) {
 }
 
 template <typename Archive>
+void OdometryField(Archive& archive, OdometryKind& odometry) {
+  std::string name = odometry == OdometryKind::kLegoLoam ? "lego_loam" : "lio";
+  archive("odometry", name);
+  if constexpr (Archive::kReading) {
+    if (name != "lio" && name != "lego_loam") {
+      archive.Fail("odometry", "`" + name + "`: expected lio or lego_loam");
+    }
+    odometry = name == "lego_loam" ? OdometryKind::kLegoLoam : OdometryKind::kLio;
+  }
+}
+
+template <typename Archive>
 void Fields(Archive& archive, PipelineOptions& options) {
   archive("pipeline", options.name);
   archive("tracked_camera", options.tracked_camera);
   archive("features", options.features);
+  OdometryField(archive, options.odometry);
   archive("lio", options.lio);
+  archive("lego_loam", options.lego_loam);
   archive("map", options.map);
 }
 
@@ -131,6 +146,7 @@ PipelineOptions LoadPipeline(const YamlDocument& document) {
   try {
     options.features.Check();
     options.lio.Check();
+    options.lego_loam.Check();
     options.map.Check();
   } catch (const CheckError& error) {
     throw InputError(document.name(), error.what());

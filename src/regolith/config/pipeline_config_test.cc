@@ -34,6 +34,27 @@ TEST(PipelineConfig, EveryShippedPipelineLoadsUnderItsName) {
   EXPECT_GE(count, 1);
 }
 
+TEST(PipelineConfig, LegoLoamIsAnOdometryOfItsOwn) {
+  const std::string path = std::string(REGOLITH_SOURCE_DIR) + "/config/pipelines/lego_loam.yaml";
+  PipelineOptions options = LoadPipeline(YamlDocument::FromFile(path));
+  EXPECT_EQ(options.odometry, OdometryKind::kLegoLoam);
+  options.lego_loam.keyframes.distance = 0.7;
+  options.lego_loam.segmentation.ground.max_bend_deg = 9.0;
+  const std::string text = WritePipeline(options);
+  const PipelineOptions copy = LoadPipeline(YamlDocument::FromText(text, "pipeline.yaml"));
+  EXPECT_EQ(WritePipeline(copy), text);
+  EXPECT_EQ(copy.lego_loam.keyframes.distance, 0.7);
+}
+
+TEST(PipelineConfig, AnUnknownOdometryIsRefused) {
+  try {
+    LoadPipeline(YamlDocument::FromText("odometry: loam\n", "pipeline.yaml"));
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("expected lio or lego_loam"));
+  }
+}
+
 TEST(PipelineConfig, ImpossibleValuesAreRefusedWithTheFile) {
   try {
     LoadPipeline(YamlDocument::FromText("lio: {map: {voxel_size: -1}}\n", "pipeline.yaml"));

@@ -29,6 +29,13 @@ struct ScanEstimate {
   std::vector<StageTime> stages;
 };
 
+/// Of an odometry that closes loops.
+struct KeyframeCounts {
+  size_t keyframes = 0;
+  size_t loops_accepted = 0;
+  size_t loops_rejected = 0;
+};
+
 /// Makes a pose of every lidar scan. Measurements come in order of their stamps; each call returns
 /// the scans that it completed, in their order, mostly none.
 class ScanOdometry {
@@ -45,6 +52,8 @@ class ScanOdometry {
   /// The best poses known now, at the stamps of the estimates given out so far. Nothing where these
   /// are the estimates themselves.
   virtual std::optional<Trajectory> Refined() const { return std::nullopt; }
+
+  virtual KeyframeCounts Counts() const { return {}; }
 
   /// What a user should know, a line each: gaps bridged, scans without points.
   virtual std::vector<std::string> Notices() const = 0;

@@ -8,6 +8,7 @@
 #include "regolith/cloud/map_point.h"
 #include "regolith/cloud/voxel_table.h"
 #include "regolith/core/span.h"
+#include "regolith/geometry/se3.h"
 
 namespace regolith {
 
@@ -25,18 +26,25 @@ class MapBuilder {
  public:
   explicit MapBuilder(const MapBuilderOptions& options);
 
-  void Add(Span<const MapPoint> points);
+  /// The points (world) of the scan of that number.
+  void Add(Span<const MapPoint> points, uint32_t scan);
 
   const std::vector<MapPoint>& points() const { return points_; }
+  /// The points, each moved as its scan was: `corrections`, one a scan, map the world in which it
+  /// was added to that in which it is known to lie now. What loops bring together is not thinned
+  /// again.
+  std::vector<MapPoint> Moved(Span<const SE3> corrections) const;
   double voxel_size() const { return voxel_size_; }
 
  private:
   VoxelKey KeyOfPoint(const MapPoint& point) const;
   void Coarsen();
+  void AddPoint(const MapPoint& point, uint32_t scan);
 
   MapBuilderOptions options_;
   double voxel_size_;
   std::vector<MapPoint> points_;
+  std::vector<uint32_t> scans_;  ///< of the points
   VoxelTable occupied_;
 };
 

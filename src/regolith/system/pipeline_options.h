@@ -7,17 +7,26 @@
 
 #include "regolith/features/feature_options.h"
 #include "regolith/features/model_manifest.h"
+#include "regolith/lio/lego_loam_options.h"
 #include "regolith/lio/lidar_odometry_options.h"
 #include "regolith/system/map_builder.h"
 
 namespace regolith {
+
+/// What makes a pose of each scan.
+enum class OdometryKind {
+  kLio,       ///< LidarOdometry
+  kLegoLoam,  ///< LegoLoam
+};
 
 /// One pipeline: which subsystems run, and how.
 struct PipelineOptions {
   std::string name;
   std::string tracked_camera;  ///< name in the rig of the one whose images are tracked; empty: none
   FeatureOptions features;
+  OdometryKind odometry = OdometryKind::kLio;
   LidarOdometryOptions lio;
+  LegoLoamOptions lego_loam;
   MapBuilderOptions map;
 
   /// Of the network that `features` names, where it names one. No setting: the program finds it.

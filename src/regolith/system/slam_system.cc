@@ -3,6 +3,7 @@
 #include "regolith/system/slam_system.h"
 
 #include "regolith/core/error.h"
+#include "regolith/lio/lego_loam.h"
 #include "regolith/lio/lidar_odometry.h"
 
 namespace regolith {
@@ -17,7 +18,7 @@ const RigCalibration& WithLidar(const PipelineOptions& options, const RigCalibra
 SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
   SensorNeeds needs;
   const bool tracks = TracksImages(options, rig);
-  needs.imu = options.lio.imu && rig.imu.has_value();
+  needs.imu = options.odometry == OdometryKind::kLio && options.lio.imu && rig.imu.has_value();
   needs.lidar = true;
   needs.wheels = options.lio.wheels && rig.wheels.has_value();
   if (tracks) needs.cameras.push_back(options.tracked_camera);
@@ -26,6 +27,9 @@ SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
 
 std::unique_ptr<ScanOdometry> MakeScanOdometry(const PipelineOptions& options,
                                                const RigCalibration& rig, ThreadPool* threads) {
+  if (options.odometry == OdometryKind::kLegoLoam) {
+    return std::make_unique<LegoLoam>(options.lego_loam, rig, threads);
+  }
   return std::make_unique<LidarOdometry>(options.lio, rig, threads);
 }
 
@@ -89,13 +93,24 @@ std::vector<FrameReport> SlamSystem::Report(std::vector<ScanEstimate> estimates)
   for (const ScanEstimate& estimate : estimates) {
     Stopwatch stopwatch;
     odometry_.Append({estimate.stamp, estimate.T_world_body});
-    map_.Add(estimate.points);
+    map_.Add(estimate.points, static_cast<uint32_t>(odometry_.size() - 1));
     stopwatch.Lap("output_map");
     reports.push_back(ReportOf(estimate));
     for (const StageTime& stage : stopwatch.stages()) reports.back().stages.push_back(stage);
     if (tracker_ && estimate.gyro_bias) tracker_->SetGyroBias(*estimate.gyro_bias);
   }
   return reports;
+}
+
+std::vector<MapPoint> SlamSystem::MapPoints() const {
+  const std::optional<Trajectory> refined = scan_odometry_->Refined();
+  if (!refined) return map_.points();
+  std::vector<SE3> corrections;
+  for (size_t i = 0; i < odometry_.size(); ++i) {
+    corrections.push_back(refined->poses()[i].T_world_body *
+                          odometry_.poses()[i].T_world_body.Inverse());
+  }
+  return map_.Moved(corrections);
 }
 
 FrameReport SlamSystem::Track(const CameraFrame& frame) {

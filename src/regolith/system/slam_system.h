@@ -75,10 +75,12 @@ class SlamSystem {
   const Trajectory& odometry() const { return odometry_; }
   /// The best poses known now.
   Trajectory trajectory() const { return scan_odometry_->Refined().value_or(odometry_); }
-  const std::vector<MapPoint>& map_points() const { return map_.points(); }
+  /// The map as it lies with the best poses known now.
+  std::vector<MapPoint> MapPoints() const;
 
   size_t scans_seen() const { return scans_seen_; }
   size_t images_seen() const { return images_seen_; }
+  KeyframeCounts keyframe_counts() const { return scan_odometry_->Counts(); }
   std::vector<std::string> Notices() const { return scan_odometry_->Notices(); }
 
  private:

@@ -44,7 +44,7 @@ TEST(SlamSystem, EveryScanGetsAPoseAndTheMapGrows) {
   EXPECT_TRUE(system.Finish().empty());
   EXPECT_EQ(system.trajectory().size(), 5U);
   EXPECT_EQ(system.scans_seen(), 5U);
-  EXPECT_GT(system.map_points().size(), 5000U);
+  EXPECT_GT(system.MapPoints().size(), 5000U);
 }
 
 RigCalibration RigWithCamera() {
