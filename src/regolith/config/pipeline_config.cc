@@ -39,6 +39,13 @@ void Fields(Archive& archive, ScanMatcherOptions& matcher) {
 }
 
 template <typename Archive>
+void Fields(Archive& archive, FeatureScanMatcherOptions& matcher) {
+  archive("curvature", matcher.curvature);
+  archive("map", matcher.map);
+  archive("independence", matcher.independence);
+}
+
+template <typename Archive>
 void Fields(Archive& archive, RestDetectionOptions& rest) {
   archive("min_duration", rest.min_duration);
   archive("max_gyro_sigma", rest.max_gyro_sigma);
@@ -96,6 +103,8 @@ void Fields(Archive& archive, LidarOdometryOptions& lio) {
   archive("max_points", lio.max_points);
   archive("drift", lio.drift);
   archive("matcher", lio.matcher);
+  archive("features", lio.features);
+  archive("feature_matcher", lio.feature_matcher);
   archive("initialization_window", lio.initialization_window);
   archive("rest", lio.rest);
   archive("rest_window", lio.rest_window);

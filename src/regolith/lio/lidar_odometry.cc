@@ -36,6 +36,7 @@ Matrix6d MotionCovariance(double rotation_sigma, double position_sigma) {
 void LidarOdometryOptions::Check() const {
   map.Check();
   matcher.Check();
+  feature_matcher.Check();
   rest.Check();
   wheel_motion.Check();
   drift.Check();
@@ -55,11 +56,13 @@ LidarOdometry::LidarOdometry(const LidarOdometryOptions& options, const RigCalib
     : options_(options), threads_(threads), drift_(options.drift) {
   options.Check();
   VoxelMapOptions level = options.map;
-  for (int i = 0; i < options.map_levels; ++i, level.voxel_size *= options.map_growth) {
+  const int levels = options.features ? 0 : options.map_levels;
+  for (int i = 0; i < levels; ++i, level.voxel_size *= options.map_growth) {
     maps_.emplace_back(level);
   }
   REGOLITH_CHECK(rig.lidar.has_value(), "the rig has no lidar");
   T_body_lidar_ = rig.lidar->T_imu_lidar;
+  if (options.features) features_.emplace(options.feature_matcher, rig.lidar->rings);
   if (options.wheels && rig.wheels) T_body_base_ = rig.wheels->T_imu_base;
   if (options.imu && rig.imu) inertial_.emplace(options, rig);
 }
@@ -132,16 +135,24 @@ std::vector<ScanEstimate> LidarOdometry::EstimateReady(bool all) {
   return estimates;
 }
 
-ScanMatch LidarOdometry::Match(const std::vector<Eigen::Vector3d>& points_body,
+ScanMatch LidarOdometry::Match(const LidarScan& scan,
+                               const std::vector<Eigen::Vector3d>& points_body,
                                const Guess& guess) {
+  const ScanMatch match = features_ ? features_->Match(scan, points_body, guess.T_world_body,
+                                                       guess.covariance, threads_)
+                                    : MatchPoints(points_body, guess);
+  if (!match.used_scan && scans_ > 0 && !points_body.empty()) ++unmatched_scans_;
+  return match;
+}
+
+ScanMatch LidarOdometry::MatchPoints(const std::vector<Eigen::Vector3d>& points_body,
+                                     const Guess& guess) const {
   const std::vector<uint32_t> kept = DownsampleIndices(points_body, options_.scan_voxel_size);
   const size_t count = std::min(kept.size(), static_cast<size_t>(options_.max_points));
   std::vector<Eigen::Vector3d> thinned(count);
   for (size_t i = 0; i < count; ++i) thinned[i] = points_body[kept[i * kept.size() / count]];
-  ScanMatch match =
-      MatchScan(thinned, guess.T_world_body, guess.covariance, maps_, options_.matcher, threads_);
-  if (!match.used_scan && scans_ > 0 && !points_body.empty()) ++unmatched_scans_;
-  return match;
+  return MatchScan(thinned, guess.T_world_body, guess.covariance, maps_, options_.matcher,
+                   threads_);
 }
 
 void LidarOdometry::AddDrift(const SE3& T_world_body, ScanEstimate* estimate) {
@@ -162,6 +173,7 @@ std::vector<MapPoint> LidarOdometry::ExtendMap(const LidarScan& scan,
     points_world[i] = T_world_body * points_body[i];
     map_points[i] = {points_world[i].cast<float>(), scan.points[i].intensity};
   }
+  if (features_) features_->Extend(T_world_body);
   for (VoxelMap& map : maps_) {
     map.Add(points_world, T_world_body.translation);
     map.ForgetSomeFarFrom(T_world_body.translation);
@@ -183,7 +195,8 @@ ScanEstimate LidarOdometry::EstimateInertial(const LidarScan& scan) {
   if (options_.lidar) {
     points_body = Deskew(scan, T_body_lidar_, motion, predicted);
     stopwatch.Lap("deskew");
-    estimate.match = Match(points_body, {filter.state().T_world_imu, filter.PoseCovariance()});
+    estimate.match =
+        Match(scan, points_body, {filter.state().T_world_imu, filter.PoseCovariance()});
     if (estimate.match.used_scan) {
       filter.AbsorbPose(estimate.match.T_map_body, estimate.match.covariance);
     }
@@ -241,7 +254,7 @@ ScanEstimate LidarOdometry::EstimateWithoutImu(const LidarScan& scan) {
   const auto points_body = Deskew(scan, T_body_lidar_, motion, guess.T_world_body);
   stopwatch.Lap("deskew");
 
-  estimate.match = Match(points_body, guess);
+  estimate.match = Match(scan, points_body, guess);
   const SE3 pose = estimate.match.T_map_body;
   estimate.covariance = estimate.match.covariance;
   estimate.leader = estimate.match.used_scan ? "lidar" : "guess";

@@ -10,6 +10,7 @@
 #include "regolith/cloud/voxel_map.h"
 #include "regolith/core/thread_pool.h"
 #include "regolith/geometry/trajectory.h"
+#include "regolith/lio/feature_scan_matcher.h"
 #include "regolith/lio/inertial_tracker.h"
 #include "regolith/lio/lidar_odometry_options.h"
 #include "regolith/lio/map_drift.h"
@@ -49,7 +50,9 @@ class LidarOdometry : public ScanOdometry {
   ScanEstimate EstimateInertial(const LidarScan& scan);
   ScanEstimate EstimateWithoutImu(const LidarScan& scan);
   Guess GuessAt(TimeNs time) const;
-  ScanMatch Match(const std::vector<Eigen::Vector3d>& points_body, const Guess& guess);
+  ScanMatch Match(const LidarScan& scan, const std::vector<Eigen::Vector3d>& points_body,
+                  const Guess& guess);
+  ScanMatch MatchPoints(const std::vector<Eigen::Vector3d>& points_body, const Guess& guess) const;
   void AddDrift(const SE3& T_world_body, ScanEstimate* estimate);
   std::vector<MapPoint> ExtendMap(const LidarScan& scan,
                                   const std::vector<Eigen::Vector3d>& points_body,
@@ -59,7 +62,8 @@ class LidarOdometry : public ScanOdometry {
   SE3 T_body_lidar_;
   std::optional<SE3> T_body_base_;  ///< of the wheels, where they are used
   ThreadPool* threads_;
-  std::vector<VoxelMap> maps_;  ///< the same points, from fine to coarse voxels
+  std::vector<VoxelMap> maps_;                  ///< the same points, from fine to coarse voxels
+  std::optional<FeatureScanMatcher> features_;  ///< in the place of `maps_`
   MapDrift drift_;
   std::optional<SE3> last_pose_;  ///< that `drift_` has reached
   std::deque<LidarScan> waiting_;

@@ -5,6 +5,7 @@
 #include "regolith/cloud/voxel_map_options.h"
 #include "regolith/imu/rest_detection_options.h"
 #include "regolith/imu/wheel_preintegration_options.h"
+#include "regolith/lio/feature_scan_matcher_options.h"
 #include "regolith/lio/inertial_filter_options.h"
 #include "regolith/lio/map_drift_options.h"
 #include "regolith/lio/scan_matcher.h"
@@ -12,13 +13,15 @@
 namespace regolith {
 
 struct LidarOdometryOptions {
-  bool lidar = true;    ///< false: IMU and wheels alone
-  bool imu = true;      ///< false: lidar alone, guess from wheels or constant velocity
-  bool wheels = false;  ///< where the rig has them
-  VoxelMapOptions map;  ///< the finest; each coarser one has voxels `map_growth` times as large
+  bool lidar = true;      ///< false: IMU and wheels alone
+  bool imu = true;        ///< false: lidar alone, guess from wheels or constant velocity
+  bool wheels = false;    ///< where the rig has them
+  bool features = false;  ///< match edges and planars (feature_matcher), not all points (matcher)
+  VoxelMapOptions map;    ///< the finest; each coarser one has voxels `map_growth` times as large
   int map_levels = 2;
   double map_growth = 3.0;
   ScanMatcherOptions matcher;
+  FeatureScanMatcherOptions feature_matcher;
   double scan_voxel_size = 0.35;  ///< m, one point a voxel is matched
   int max_points = 6000;          ///< more than these are thinned further
   MapDriftOptions drift;

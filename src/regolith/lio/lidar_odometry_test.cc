@@ -150,6 +150,17 @@ TEST(LidarOdometry, FollowsADriveWithoutAnImu) {
   EXPECT_LT(WorstError(estimates), 0.10);
 }
 
+TEST(LidarOdometry, FollowsADriveByEdgesAndPlanars) {
+  ThreadPool threads(2);
+  LidarOdometryOptions options;
+  options.features = true;
+  LidarOdometry odometry(options, Rig(true), &threads);
+  const auto estimates = Drive(odometry, 10.0, true);
+  ASSERT_EQ(estimates.size(), 100U);
+  EXPECT_EQ(estimates.back().leader, "lidar+imu");
+  EXPECT_LT(WorstError(estimates), 0.15);
+}
+
 TEST(LidarOdometry, BridgesAGapInTheImuAndSaysSo) {
   ThreadPool threads(2);
   LidarOdometry odometry({}, Rig(true), &threads);
