@@ -42,8 +42,9 @@ class NetworkExtractor : public FeatureExtractor {
     output_ = network_.Run(image);
     stopwatch.Lap("network");
     MakeScoreMap(output_, image.width, image.height, &map_);
+    AddNeighbours(map_, &sums_);
     stopwatch.Lap("scores");
-    suppression_.Run(map_, mask, suppression_options_, &candidates_);
+    suppression_.Run(sums_, mask, suppression_options_, &candidates_);
     DropNoise(image);
     stopwatch.Lap("suppression");
     threshold_.Select(image.width, image.height, max_keypoints, &candidates_);
@@ -86,6 +87,7 @@ class NetworkExtractor : public FeatureExtractor {
   NonMaximumSuppression suppression_;
   NetworkOutput output_;
   ScoreMap map_;
+  ScoreMap sums_;
   std::vector<Candidate> candidates_;
   std::vector<StageTime> stages_;
 };

@@ -79,6 +79,25 @@ void MakeScoreMap(const NetworkOutput& output, int width, int height, ScoreMap* 
   }
 }
 
+void AddNeighbours(const ScoreMap& map, ScoreMap* sums) {
+  sums->width = map.width;
+  sums->height = map.height;
+  sums->scores.resize(map.scores.size());
+  const auto width = static_cast<size_t>(map.width);
+  std::vector<float> columns(width + 2, 0.0F);  // a row's, a 0 on each side
+  float* inner = columns.data() + 1;
+  for (int row = 0; row < map.height; ++row) {
+    std::memcpy(inner, map.scores.data() + Place(map, row, 0), width * sizeof(float));
+    for (const int other : {row - 1, row + 1}) {
+      if (other < 0 || other >= map.height) continue;
+      const float* scores = map.scores.data() + Place(map, other, 0);
+      for (size_t x = 0; x < width; ++x) inner[x] += scores[x];
+    }
+    float* target = sums->scores.data() + Place(map, row, 0);
+    for (size_t x = 0; x < width; ++x) target[x] = columns[x] + columns[x + 1] + columns[x + 2];
+  }
+}
+
 void NonMaximumSuppression::Run(const ScoreMap& map, const Image* mask,
                                 const SuppressionOptions& options,
                                 std::vector<Candidate>* candidates) {

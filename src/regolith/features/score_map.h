@@ -23,6 +23,11 @@ struct ScoreMap {
 /// padded by is cut off.
 void MakeScoreMap(const NetworkOutput& output, int width, int height, ScoreMap* map);
 
+/// The scores of the 3 × 3 pixels around each pixel, added: how likely a keypoint lies there to a
+/// pixel. Networks share a keypoint between pixels among them, so that this says how strong it is,
+/// wherever it lies.
+void AddNeighbours(const ScoreMap& map, ScoreMap* sums);
+
 /// A local maximum of a score map.
 struct Candidate {
   int column = 0;
