@@ -32,11 +32,11 @@ def suppress(scores, radius):
     return kept
 
 
-def refine(scores, rows, columns):
-    """Sub-pixel places: the centre of mass of the scores in the 3 × 3 pixels around."""
+def refine(scores, rows, columns, radius=2):
+    """Sub-pixel places: the centre of mass of the scores in the 5 × 5 pixels around."""
     total = shift_x = shift_y = 0.0
-    for dy in (-1, 0, 1):
-        for dx in (-1, 0, 1):
+    for dy in range(-radius, radius + 1):
+        for dx in range(-radius, radius + 1):
             value = scores[rows + dy, columns + dx]
             total, shift_x, shift_y = total + value, shift_x + dx * value, shift_y + dy * value
     return torch.stack([columns + shift_x / total, rows + shift_y / total], dim=1)
@@ -50,10 +50,11 @@ def detect_and_describe(network, image, count=500, radius=4, border=4, floor=0.0
     padded = functional.pad(image[None, None], (0, -width % CELL, 0, -height % CELL), mode="replicate")
     logits, descriptors = network((padded - MEAN) / SCALE)
     scores = score_map(logits)[:, :, :height, :width]
-    kept = suppress(scores, radius)[0, 0]
+    smoothed = 9 * functional.avg_pool2d(scores, 3, 1, 1)
+    kept = suppress(smoothed, radius)[0, 0]
     kept[:border], kept[-border:], kept[:, :border], kept[:, -border:] = False, False, False, False
-    rows, columns = torch.nonzero(kept & (scores[0, 0] > floor), as_tuple=True)
-    strengths = scores[0, 0, rows, columns]
+    rows, columns = torch.nonzero(kept & (smoothed[0, 0] > floor), as_tuple=True)
+    strengths = smoothed[0, 0, rows, columns]
     order = torch.argsort(strengths, descending=True, stable=True)[:count]
     rows, columns = rows[order], columns[order]
     pixels = torch.stack([columns, rows], dim=1).float()

@@ -144,6 +144,18 @@ class GhostPaper(nn.Module):
         return self.heads(self.encoder(image))
 
 
+class Blur(nn.Module):
+    """Binomial 3 × 3 blur of each channel: without it, what a strided convolution sees depends on where its grid lies (Zhang 2019)."""
+
+    def __init__(self, channels):
+        super().__init__()
+        taps = torch.tensor([0.25, 0.5, 0.25])
+        self.register_buffer("kernel", torch.outer(taps, taps).repeat(channels, 1, 1, 1), persistent=False)
+
+    def forward(self, features):
+        return functional.conv2d(features, self.kernel, padding=1, groups=features.shape[1])
+
+
 class Ghost(nn.Module):
     """Ours: the paper's idea made slim. Where the time of `GhostPaper` goes (its first layers at 1/2 resolution, heads 256 wide)
     plain strided convolutions of few channels stand instead; Ghost bottlenecks do the work at 1/8.
@@ -157,18 +169,19 @@ class Ghost(nn.Module):
 
     def __init__(self, half=16, quarter=24, eighth=64, depth=4, width=64, lifted=8):
         super().__init__()
-        self.stem = convolution(1, half, stride=2)
-        self.middle = nn.Sequential(convolution(half, quarter, stride=2), GhostBottleneck(quarter, 2 * quarter, quarter))
-        self.deep = nn.Sequential(convolution(quarter, eighth, stride=2),
+        self.stem = convolution(1, half, size=5, stride=2)
+        self.middle = nn.Sequential(Blur(half), convolution(half, quarter, stride=2),
+                                    GhostBottleneck(quarter, 2 * quarter, quarter))  # fmt: skip
+        self.deep = nn.Sequential(Blur(quarter), convolution(quarter, eighth, stride=2),
                                   *[GhostBottleneck(eighth, 2 * eighth, eighth) for _ in range(depth)])  # fmt: skip
         self.context = nn.Conv2d(eighth, quarter, 1)
         self.lift = nn.Conv2d(quarter, lifted, 1)
-        self.corner = nn.Sequential(convolution(half + lifted, half), nn.Conv2d(half, 4, 1))
+        self.corner = nn.Sequential(convolution(half + lifted, half), nn.Conv2d(half, 4, 3, padding=1))
         self.none = nn.Conv2d(eighth, 1, 1)
         self.descriptor = nn.Sequential(convolution(eighth, width), nn.Conv2d(width, self.dimension, 1))
 
     def forward(self, image):
-        half = self.stem(image)
+        half = self.stem(normalise(image))
         quarter = self.middle(half)
         eighth = self.deep(quarter)
         lifted = self.lift(functional.relu(quarter + twice(self.context(eighth))))
@@ -178,8 +191,15 @@ class Ghost(nn.Module):
         return logits, functional.normalize(self.descriptor(eighth), dim=1)
 
 
+def normalise(image, floor=0.02):
+    """Images by their own mean and deviation (the latter at least about `floor`, so that noise stays small), so that exposure does
+    not matter."""
+    centred = image - image.mean((2, 3), keepdim=True)
+    return centred / ((centred * centred).mean((2, 3), keepdim=True) + floor**2).sqrt()
+
+
 def twice(features):
-    return functional.interpolate(features, scale_factor=2.0, mode="nearest")
+    return functional.interpolate(features, scale_factor=2.0, mode="bilinear", align_corners=False)
 
 
 NETWORKS = {"ghost": Ghost, "ghost_paper": GhostPaper, "superpoint": SuperPoint}
