@@ -22,7 +22,7 @@ from regolith_train.photometry import augment
 HEIGHT, WIDTH = 240, 320
 POINTS = 192  # correspondences a sample
 LABELS = 512  # keypoint labels a view, at most
-SURE_SCORE = 0.4  # of the teacher
+SURE_SCORE = 0.9  # of the teacher
 
 
 @dataclasses.dataclass
@@ -34,7 +34,7 @@ class View:
 
 def sureness(scores):
     """How much of a keypoint a label is: what the teacher is not sure of counts less, so that the order of scores is learnt."""
-    return numpy.clip(scores / SURE_SCORE, 0.0, 1.0)
+    return numpy.clip(scores / SURE_SCORE, 0.0, 1.0) ** 1.5
 
 
 def validation(path):

@@ -32,6 +32,18 @@ def suppress(scores, radius):
     return kept
 
 
+def corner_weight(image):
+    """Weight of each pixel's score by the corner that the image (height × width, 0 to 1) has there: 1 × 1 × height × width. See
+    corner_weight.h: sqrt((λ + 0.003) / 0.0625), λ the smaller eigenvalue of the gradients' matrix, in variances of the image."""
+    padded = functional.pad(image[None, None], (1, 1, 1, 1), mode="reflect")
+    sobel = torch.tensor([[-1.0, 0, 1], [-2, 0, 2], [-1, 0, 1]]) / 20
+    x, y = functional.conv2d(padded, torch.stack([sobel, sobel.T])[:, None])[0]
+    xx, xy, yy = 25 * functional.avg_pool2d(torch.stack([x * x, x * y, y * y])[None], 5, 1, 2)[0]
+    smaller = 0.5 * ((xx + yy) - ((xx - yy) ** 2 + 4 * xy * xy).sqrt()).clamp(min=0)
+    variance = (image.std(unbiased=False) + 0.02) ** 2
+    return ((smaller / variance + 0.003) / 0.0625).sqrt()[None, None]
+
+
 def refine(scores, rows, columns, radius=2):
     """Sub-pixel places: the centre of mass of the scores in the 5 × 5 pixels around."""
     total = shift_x = shift_y = 0.0
@@ -50,7 +62,7 @@ def detect_and_describe(network, image, count=500, radius=4, border=4, floor=0.0
     padded = functional.pad(image[None, None], (0, -width % CELL, 0, -height % CELL), mode="replicate")
     logits, descriptors = network((padded - MEAN) / SCALE)
     scores = score_map(logits)[:, :, :height, :width]
-    smoothed = 9 * functional.avg_pool2d(scores, 3, 1, 1)
+    smoothed = 9 * functional.avg_pool2d(scores, 3, 1, 1) * corner_weight(image)
     kept = suppress(smoothed, radius)[0, 0]
     kept[:border], kept[-border:], kept[:, :border], kept[:, -border:] = False, False, False, False
     rows, columns = torch.nonzero(kept & (smoothed[0, 0] > floor), as_tuple=True)

@@ -9,6 +9,7 @@
 #include "regolith/core/stopwatch.h"
 #include "regolith/features/adaptive_threshold.h"
 #include "regolith/features/contrast.h"
+#include "regolith/features/corner_weight.h"
 #include "regolith/features/feature_network.h"
 #include "regolith/features/score_map.h"
 
@@ -43,6 +44,7 @@ class NetworkExtractor : public FeatureExtractor {
     stopwatch.Lap("network");
     MakeScoreMap(output_, image.width, image.height, &map_);
     AddNeighbours(map_, &sums_);
+    corner_weight_.Apply(image, &sums_);
     stopwatch.Lap("scores");
     suppression_.Run(sums_, mask, suppression_options_, &candidates_);
     DropNoise(image);
@@ -88,6 +90,7 @@ class NetworkExtractor : public FeatureExtractor {
   NetworkOutput output_;
   ScoreMap map_;
   ScoreMap sums_;
+  CornerWeight corner_weight_;
   std::vector<Candidate> candidates_;
   std::vector<StageTime> stages_;
 };

@@ -13,6 +13,7 @@ namespace {
 constexpr int kCell = 8;
 constexpr int kPixels = kCell * kCell;
 constexpr int kChannels = kPixels + 1;
+constexpr int kCentreRadius = 2;  // pixels, of the square whose centre of mass a keypoint is
 // After which what is left is sorted: a ramp has one local maximum a round.
 constexpr int kRounds = 8;
 
@@ -103,8 +104,8 @@ void NonMaximumSuppression::Run(const ScoreMap& map, const Image* mask,
                                 std::vector<Candidate>* candidates) {
   keys_.clear();
   candidates->clear();
-  // Centres of mass need a pixel on each side.
-  const int border = std::max(options.border, 1);
+  // Centres of mass need pixels on each side.
+  const int border = std::max(options.border, kCentreRadius);
   if (map.width <= 2 * border || map.height <= 2 * border) return;
   Prepare(map, mask, border, options.floor);
   TakeLocalMaxima(map, options.radius);
@@ -253,11 +254,11 @@ void NonMaximumSuppression::Take(const ScoreMap& map, size_t place, int radius) 
 Eigen::Vector2f RefinePixel(const ScoreMap& map, const Candidate& candidate) {
   Eigen::Vector2f moment = Eigen::Vector2f::Zero();
   float total = 0.0F;
-  for (int dy = -1; dy <= 1; ++dy) {
+  for (int dy = -kCentreRadius; dy <= kCentreRadius; ++dy) {
     const float* row = map.scores.data() +
                        static_cast<size_t>(candidate.row + dy) * static_cast<size_t>(map.width) +
                        static_cast<size_t>(candidate.column);
-    for (int dx = -1; dx <= 1; ++dx) {
+    for (int dx = -kCentreRadius; dx <= kCentreRadius; ++dx) {
       moment += row[dx] * Eigen::Vector2f(static_cast<float>(dx), static_cast<float>(dy));
       total += row[dx];
     }

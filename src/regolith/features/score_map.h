@@ -72,7 +72,7 @@ class NonMaximumSuppression {
   std::vector<uint64_t> keys_;
 };
 
-/// The centre of mass of the scores in the 3 × 3 pixels around a candidate: its place to a fraction
+/// The centre of mass of the scores in the 5 × 5 pixels around a candidate: its place to a fraction
 /// of a pixel.
 Eigen::Vector2f RefinePixel(const ScoreMap& map, const Candidate& candidate);
 
