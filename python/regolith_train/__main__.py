@@ -140,11 +140,13 @@ def evaluate(arguments):
     homographies = pathlib.Path(arguments.homographies)
     if not (homographies / "oxford_graf").is_dir():
         fail(f"{homographies}: has no folder oxford_graf; name the folder of Oxford's sequences by --homographies")
-    try:
-        methods = {name: method(name, MODELS, cache_folder()) for name in arguments.methods}
-    except (ValueError, FileNotFoundError) as error:
-        fail(error)
-    print(report(methods, homographies, pair_folders(arguments.pairs), arguments.out))
+    def load(name):
+        try:
+            return method(name, MODELS, cache_folder())
+        except (ValueError, FileNotFoundError) as error:
+            return fail(error)
+
+    print(report(arguments.methods, load, homographies, pair_folders(arguments.pairs), arguments.out))
 
 
 def curves(arguments):
@@ -192,7 +194,7 @@ def parser():
     added.add_argument("--methods", nargs="+", default=["ghost"], metavar="METHOD",
                        help="ghost (as in models/), ghost@RUN (a run's checkpoint), xfeat, aliked-n16, disk, sift, orb")  # fmt: skip
     added.add_argument("--homographies", default=DATA / "homography")
-    added.add_argument("--pairs", help="folder below which `simulate --pairs` wrote")
+    added.add_argument("--pairs", help="folder below which `simulate --pairs` wrote PLANET/SEED/pairs")
     added.add_argument("--out", default="features", help="folder of tables and plot")
     command("curves", curves, "plot the losses of a run")
     return top

@@ -6,9 +6,7 @@ import torch
 from torch.nn import functional
 
 from regolith_train.losses import sample_descriptors
-from regolith_train.networks import CELL
-
-MEAN, SCALE = 0.0, 1.0  # of the network's input, (grey / 255 - MEAN) / SCALE
+from regolith_train.networks import CELL, inputs
 
 
 def score_map(logits):
@@ -59,8 +57,8 @@ def detect_and_describe(network, image, count=500, radius=4, border=4, floor=0.0
     """The `count` strongest keypoints (n × 2), their scores and descriptors (n × dimension) of a grey image (height × width, 0 to
     1)."""
     height, width = image.shape
-    padded = functional.pad(image[None, None], (0, -width % CELL, 0, -height % CELL), mode="replicate")
-    logits, descriptors = network((padded - MEAN) / SCALE)
+    taken = inputs(network, image[None, None])
+    logits, descriptors = network(functional.pad(taken, (0, -width % CELL, 0, -height % CELL), mode="replicate"))
     scores = score_map(logits)[:, :, :height, :width]
     smoothed = 9 * functional.avg_pool2d(scores, 3, 1, 1) * corner_weight(image)
     kept = suppress(smoothed, radius)[0, 0]

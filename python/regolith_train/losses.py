@@ -93,7 +93,7 @@ def contrastive_loss(first, second, teacher, places, valid, temperature, teacher
 
 def paper_loss(network, sample, weight=1.2):
     """(L_p + L_wp) + λ L_d, with λ = 1.2."""
-    logits, descriptors = network(flat(sample["images"]))
+    logits, descriptors = network(sample["inputs"])
     detection = 2 * detector_loss(logits, flat(sample["labels"]), flat(sample["inside"]), soft=False)
     first, second = both(descriptors, sample["places"])
     description = triplet_loss(first, second, sample["places"][:, 1], sample["valid"])
@@ -126,7 +126,7 @@ def repeatability_loss(logits, inside, homographies, floor=0.003):
 
 
 def ghost_loss(network, sample, weight=0.7, temperature=0.07, repeatability_weight=1.5):
-    logits, descriptors = network(flat(sample["images"]))
+    logits, descriptors = network(sample["inputs"])
     detection = 2 * detector_loss(logits, flat(sample["labels"]), flat(sample["inside"]), soft=True)
     first, second = both(descriptors, sample["places"])
     description = contrastive_loss(first, second, sample["teacher"], sample["places"][:, 1], sample["valid"], temperature)

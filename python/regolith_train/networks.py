@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The three feature networks: an encoder to 1/8 resolution, a detector head and a descriptor head.
 
-Every network maps a grey image, batch × 1 × height × width with sides divisible by 8 and values
-(grey / 255 - mean) / scale, to
+Every network maps a grey image, batch × 1 × height × width with sides divisible by 8 and values `inputs(network, grey / 255)`, to
 
   logits       batch × 65 × height/8 × width/8: the 64 pixels of each 8 × 8 cell, row by row, then "no keypoint here"
   descriptors  batch × dimension × height/8 × width/8, unit length along the second axis; the one of cell (i, j) belongs
@@ -104,6 +103,7 @@ class SuperPoint(nn.Module):
     """SuperPoint's VGG encoder: 64-64-64-64-128-128-128-128 with three poolings."""
 
     dimension = 256
+    per_image = False
 
     def __init__(self):
         super().__init__()
@@ -125,6 +125,7 @@ class GhostPaper(nn.Module):
     """The paper's encoder: GhostNet's first convolution and six bottlenecks, width × 1.2, the heads of SuperPoint."""
 
     dimension = 256
+    per_image = False
     # expanded, outputs, stride, squeeze-and-excitation
     BOTTLENECKS = [(16, 16, 1, False), (48, 24, 2, False), (72, 24, 1, False),
                    (72, 40, 2, True), (120, 40, 1, True), (240, 80, 1, False)]  # fmt: skip
@@ -166,6 +167,7 @@ class Ghost(nn.Module):
     """
 
     dimension = 128
+    per_image = True
 
     def __init__(self, half=16, quarter=24, eighth=64, depth=4, width=64, lifted=8):
         super().__init__()
@@ -181,7 +183,7 @@ class Ghost(nn.Module):
         self.descriptor = nn.Sequential(convolution(eighth, width), nn.Conv2d(width, self.dimension, 1))
 
     def forward(self, image):
-        half = self.stem(normalise(image))
+        half = self.stem(image)
         quarter = self.middle(half)
         eighth = self.deep(quarter)
         lifted = self.lift(functional.relu(quarter + twice(self.context(eighth))))
@@ -196,6 +198,11 @@ def normalise(image, floor=0.02):
     not matter."""
     centred = image - image.mean((2, 3), keepdim=True)
     return centred / ((centred * centred).mean((2, 3), keepdim=True) + floor**2).sqrt()
+
+
+def inputs(network, images):
+    """What a network takes for images of 0 to 1."""
+    return normalise(images) if network.per_image else images
 
 
 def twice(features):

@@ -19,7 +19,7 @@ from torch.utils.data import DataLoader
 
 from regolith_train.data import Mixture, SimulatedPairs, SingleImages, validation
 from regolith_train.losses import LOSSES
-from regolith_train.networks import NETWORKS
+from regolith_train.networks import NETWORKS, inputs
 
 
 @dataclasses.dataclass
@@ -123,6 +123,7 @@ class Run:
 
     def terms(self, network, sample):
         sample = {name: values.to(self.device) for name, values in sample.items()}
+        sample["inputs"] = inputs(self.network, sample["images"].flatten(0, 1))
         with torch.autocast(self.device.type, torch.bfloat16, enabled=self.options.bf16):
             return LOSSES[self.options.loss](network, sample)
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Core>
+
 #include "regolith/core/check.h"
 
 namespace regolith {
@@ -109,13 +111,17 @@ void CornerWeight::SumColumns(const Image& image, int row, Products* sums) {
 void CornerWeight::WeighRow(double variance, float* scores) const {
   const auto scale = static_cast<float>(0.5 * kScale * kScale / variance / kTypical);
   const size_t width = total_.xx.size();
-  for (size_t x = kMargin; x + kMargin < width; ++x) {
-    const auto xx = static_cast<float>(total_.xx[x]);
-    const auto xy = static_cast<float>(total_.xy[x]);
-    const auto yy = static_cast<float>(total_.yy[x]);
-    const float smaller = (xx + yy) - std::sqrt((xx - yy) * (xx - yy) + 4.0F * xy * xy);
-    scores[x] *= std::sqrt(std::max(smaller, 0.0F) * scale + kFlat / kTypical);
-  }
+  const auto inner = [&](const std::vector<int32_t>& values) {
+    return Eigen::Map<const Eigen::ArrayXi>(values.data() + kMargin,
+                                            static_cast<Eigen::Index>(width - 2 * kMargin))
+        .cast<float>();
+  };
+  // Expressions of Eigen: a loop with std::sqrt is not vectorised, for the sake of errno.
+  const auto difference = inner(total_.xx) - inner(total_.yy);
+  const auto root = (difference.square() + 4.0F * inner(total_.xy).square()).sqrt();
+  const auto smaller = inner(total_.xx) + inner(total_.yy) - root;
+  Eigen::Map<Eigen::ArrayXf>(scores + kMargin, static_cast<Eigen::Index>(width - 2 * kMargin)) *=
+      (smaller.max(0.0F) * scale + kFlat / kTypical).sqrt();
   std::fill_n(scores, kMargin, 0.0F);
   std::fill_n(scores + width - kMargin, kMargin, 0.0F);
 }
