@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The Regolith authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""python -m regolith_train label|train|export|evaluate|vocabulary"""
+"""python -m regolith_train label|train|curves|export|vocabulary|evaluate"""
 
 import argparse
 import dataclasses
-import json
 import os
 import pathlib
 import shlex
@@ -12,6 +11,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MODELS = ROOT / "models"
+CONFIGS = ROOT / "python" / "configs"
 DATA = pathlib.Path(os.environ.get("REGOLITH_DATA") or ROOT.parent / "shared" / "data")
 EXAMPLES = """\
 a whole training, from pictures to a network in models/:
@@ -20,7 +20,7 @@ a whole training, from pictures to a network in models/:
   python -m regolith_train train --network ghost --images ../shared/data/train_images --pairs pairs
   python -m regolith_train export --network ghost
   python -m regolith_train vocabulary --network ghost --images ../shared/data/train_images
-  python -m regolith_train evaluate --network ghost --homographies ../shared/data/homography
+  python -m regolith_train evaluate --methods ghost xfeat orb --homographies ../shared/data/homography
 """
 
 
@@ -89,12 +89,13 @@ def default_labels():
 
 
 def train(arguments):
+    import yaml
+
     from regolith_train.labels import label_path
     from regolith_train.training import TrainingOptions, train as run_training
 
-    options = TrainingOptions(network=arguments.network)
-    if arguments.config:
-        options = dataclasses.replace(options, **json.loads(pathlib.Path(arguments.config).read_text(encoding="utf-8")))
+    config = pathlib.Path(arguments.config or CONFIGS / f"{arguments.network}.yaml")
+    options = TrainingOptions(network=arguments.network, **yaml.safe_load(config.read_text(encoding="utf-8")))
     for field in dataclasses.fields(TrainingOptions):
         value = getattr(arguments, field.name, None)
         if value is not None:
@@ -129,17 +130,31 @@ def vocabulary(arguments):
 
 
 def evaluate(arguments):
-    from regolith_train.evaluation import extractor, fitted, score_oxford, score_shifts
+    import torch
 
-    extract = extractor(network_of(arguments))
-    if not (pathlib.Path(arguments.homographies) / "oxford_graf").is_dir():
-        fail(f"{arguments.homographies}: has no folder oxford_graf; name the folder of Oxford's sequences by --homographies")
-    scores = score_oxford(extract, arguments.homographies)
-    for name, values in scores.items():
-        print(name, "  ".join(f"{key} {value:.2f}" for key, value in values.items()))
-    image, _ = fitted(pathlib.Path(arguments.homographies) / "oxford_graf" / "img1.png")
-    shifts = score_shifts(extract, image)
-    print("repeatability at 1 px under shifts", "  ".join(f"{shift} {value:.2f}" for shift, value in shifts.items()))
+    from regolith_train.methods import method
+    from regolith_train.report import report
+    from regolith_train.training import cache_folder
+
+    torch.set_num_threads(arguments.threads)
+    homographies = pathlib.Path(arguments.homographies)
+    if not (homographies / "oxford_graf").is_dir():
+        fail(f"{homographies}: has no folder oxford_graf; name the folder of Oxford's sequences by --homographies")
+    def load(name):
+        try:
+            return method(name, MODELS, cache_folder())
+        except (ValueError, FileNotFoundError) as error:
+            return fail(error)
+
+    print(report(arguments.methods, load, homographies, pair_folders(arguments.pairs), arguments.out))
+
+
+def curves(arguments):
+    from regolith_train.report import plot_curves
+
+    path = run_folder(arguments) / "curve.svg"
+    plot_curves(run_folder(arguments), path)
+    print(path)
 
 
 def parser():
@@ -153,7 +168,7 @@ def parser():
         added = commands.add_parser(name, help=help_text)
         added.set_defaults(function=function)
         added.add_argument("--threads", type=int, default=2)
-        if name != "label":
+        if name not in ("label", "evaluate"):
             added.add_argument("--network", choices=sorted(NETWORKS), default="ghost")
             added.add_argument("--name", help="of the run in REGOLITH_CACHE/training; default: the network's")
         return added
@@ -168,15 +183,20 @@ def parser():
     for name in ("images", "pairs", "labels", "config"):
         added.add_argument(f"--{name}", required=name == "images")
     for name, kind in (("loss", str), ("steps", int), ("batch", int), ("rate", float), ("schedule", str), ("seed", int),
-                       ("workers", int), ("pairs_share", float), ("full_rotation_share", float)):  # fmt: skip
+                       ("workers", int), ("pairs_share", float), ("full_rotation_share", float), ("shift_share", float)):  # fmt: skip
         added.add_argument(f"--{name.replace('_', '-')}", type=kind)
     added = command("export", export, "write models/NAME.onnx, its manifest and parity tensors")
     added.add_argument("--out", default=MODELS)
     added = command("vocabulary", vocabulary, "write the words of the global descriptor")
     added.add_argument("--images", required=True)
     added.add_argument("--out", default=MODELS)
-    added = command("evaluate", evaluate, "score a network on homographies")
+    added = command("evaluate", evaluate, "put methods side by side: homographies, shifts, turns, scales, simulated pairs")
+    added.add_argument("--methods", nargs="+", default=["ghost"], metavar="METHOD",
+                       help="ghost (as in models/), ghost@RUN (a run's checkpoint), xfeat, aliked-n16, disk, sift, orb")  # fmt: skip
     added.add_argument("--homographies", default=DATA / "homography")
+    added.add_argument("--pairs", help="folder below which `simulate --pairs` wrote PLANET/SEED/pairs")
+    added.add_argument("--out", default="features", help="folder of tables and plot")
+    command("curves", curves, "plot the losses of a run")
     return top
 
 

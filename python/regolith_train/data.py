@@ -16,12 +16,13 @@ from torch.utils.data import Dataset
 
 from regolith_train.homography import HomographyRange, random_homography, transform, warp_image
 from regolith_train.labels import label_path, load_grey
+from regolith_train.networks import CELL
 from regolith_train.photometry import augment
 
 HEIGHT, WIDTH = 240, 320
 POINTS = 192  # correspondences a sample
 LABELS = 512  # keypoint labels a view, at most
-SURE_SCORE = 0.4  # of the teacher
+SURE_SCORE = 0.9  # of the teacher
 
 
 @dataclasses.dataclass
@@ -33,7 +34,7 @@ class View:
 
 def sureness(scores):
     """How much of a keypoint a label is: what the teacher is not sure of counts less, so that the order of scores is learnt."""
-    return numpy.clip(scores / SURE_SCORE, 0.0, 1.0)
+    return numpy.clip(scores / SURE_SCORE, 0.0, 1.0) ** 1.5
 
 
 def validation(path):
@@ -84,7 +85,8 @@ def teacher_descriptors(descriptors, rows):
     return torch.from_numpy(result)
 
 
-def sample(first, second, places, rows, descriptors):
+def sample(first, second, places, rows, descriptors, homography):
+    """A sample of two views. `homography` takes pixels of the first to the second; 0 where no homography does."""
     return {
         "images": torch.stack([first.image, second.image]),
         "inside": torch.stack([first.inside, second.inside]),
@@ -92,17 +94,19 @@ def sample(first, second, places, rows, descriptors):
         "places": places,
         "valid": torch.from_numpy(rows >= 0),
         "teacher": teacher_descriptors(descriptors, rows),
+        "homography": torch.from_numpy(homography.astype(numpy.float32)),
     }
 
 
 class SingleImages(Dataset):
-    """One labelled image, seen twice."""
+    """One labelled image, seen twice; in `shift_share` of the samples the second view is the first one moved by whole pixels."""
 
-    def __init__(self, images, labels, limits=None, photometric=True):
+    def __init__(self, images, labels, limits=None, photometric=True, shift_share=0.0):
         self.images = list(images)
         self.labels = labels
         self.limits = limits or HomographyRange(scale=1.6, rotation=0.4, full_rotation_share=0.45, perspective=0.2)
         self.photometric = photometric
+        self.shift_share = shift_share
 
     def __len__(self):
         return len(self.images)
@@ -117,13 +121,17 @@ class SingleImages(Dataset):
             pixels = label["pixels"]
         weights = sureness(label["scores"])
         base = window(generator, image.shape[1], image.shape[0], (0.75, 1.25))
-        other = random_homography(generator, WIDTH, HEIGHT, self.limits) @ base
+        between = random_homography(generator, WIDTH, HEIGHT, self.limits)
+        if generator.uniform() < self.shift_share:
+            between = numpy.eye(3)
+            between[:2, 2] = generator.integers(-CELL, CELL + 1, 2)
+        other = between @ base
         first = cut(image, base, pixels, weights, generator, self.photometric)
         second = cut(image, other, pixels, weights, generator, self.photometric)
         places = transform(base, pixels), transform(other, pixels)
         chosen = numpy.flatnonzero(within(places[0]) & within(places[1]))
         places, rows = correspondences(*places, chosen, generator)
-        return sample(first, second, places, rows, label["descriptors"])
+        return sample(first, second, places, rows, label["descriptors"], between)
 
 
 class SimulatedPairs(Dataset):
@@ -135,11 +143,11 @@ class SimulatedPairs(Dataset):
 
     DOUBTFUL = 0.3
 
-    def __init__(self, folders, labels, photometric=True):
+    def __init__(self, folders, labels, photometric=True, kept_out=False):
         self.labels = labels
         self.photometric = photometric
         self.pairs = [path for folder in folders for path in sorted(pathlib.Path(folder).glob("*_1.png"))
-                      if label_path(labels, path).exists() and label_path(labels, self.other(path)).exists()]  # fmt: skip
+                      if validation(path) == kept_out and label_path(labels, path).exists() and label_path(labels, self.other(path)).exists()]  # fmt: skip
         self.limits = HomographyRange(scale=1.3, rotation=0.3, full_rotation_share=0.3, perspective=0.1)
 
     @staticmethod
@@ -164,7 +172,7 @@ class SimulatedPairs(Dataset):
         places = transform(base, pixels[0]), transform(target, moved)
         chosen = numpy.flatnonzero(within(places[0]) & within(places[1]) & confirmed)
         places, rows = correspondences(*places, chosen, generator)
-        return sample(first, second, places, rows, labels[0]["descriptors"])
+        return sample(first, second, places, rows, labels[0]["descriptors"], numpy.zeros((3, 3)))
 
     def weights(self, labels, moved):
         """Which labels of the first image have a counterpart in the second (or an unknown place there), and both images' weights."""
@@ -213,16 +221,23 @@ def read_two_bands(path):
 class Mixture(Dataset):
     """`length` samples; each is drawn by its own number, so that a run that resumes goes on with the same ones."""
 
-    def __init__(self, datasets, shares, length, seed, start=0):
+    def __init__(self, datasets, shares, length, seed):
         self.datasets = [dataset for dataset in datasets if len(dataset) > 0]
         shares = numpy.array([share for dataset, share in zip(datasets, shares) if len(dataset) > 0], dtype=float)
-        self.shares = shares / shares.sum()
-        self.length, self.seed, self.start = length, seed, start
+        self.shares = shares / max(shares.sum(), 1e-9)
+        self.length, self.seed = length, seed
+        self.share(start=0, batch=1, rank=0, processes=1)
+
+    def share(self, start, batch, rank, processes):
+        """Begins at `start`, counted in samples of one process, and leaves to each of `processes` every so many batches."""
+        self.start, self.batch, self.rank, self.processes = start, batch, rank, processes
 
     def __len__(self):
-        return self.length - self.start
+        return self.length // self.processes - self.start
 
     def __getitem__(self, index):
-        generator = numpy.random.default_rng([self.seed, index + self.start])
+        block, place = divmod(index + self.start, self.batch)
+        number = (block * self.processes + self.rank) * self.batch + place
+        generator = numpy.random.default_rng([self.seed, number])
         dataset = self.datasets[generator.choice(len(self.datasets), p=self.shares)]
         return dataset.draw(int(generator.integers(len(dataset))), generator)

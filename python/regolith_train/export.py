@@ -10,8 +10,7 @@ import numpy
 import torch
 import yaml
 
-from regolith_train.inference import MEAN, SCALE
-from regolith_train.networks import CELL, NETWORKS
+from regolith_train.networks import CELL, NETWORKS, inputs
 
 OPSET = 17
 PARITY_HEIGHT, PARITY_WIDTH = 64, 96
@@ -59,7 +58,7 @@ def export(name, state, folder, training):
     partial.replace(path)
     image = parity_input()
     with torch.inference_mode():
-        logits, descriptors = network(torch.from_numpy((image - MEAN) / SCALE))
+        logits, descriptors = network(inputs(network, torch.from_numpy(image)))
     tensors = {"input": image, "logits": logits.numpy(), "descriptors": descriptors.numpy()}
     for kind, values in tensors.items():
         numpy.save(folder / "parity" / f"{name}_{kind}.npy", numpy.ascontiguousarray(values, dtype=numpy.float32))
@@ -70,7 +69,7 @@ def export(name, state, folder, training):
         "input": {"name": INPUT, "shape": [1, 1, -1, -1]},
         "outputs": {LOGITS: {"name": LOGITS, "shape": [1, CELL * CELL + 1, -1, -1]},
                     DESCRIPTORS: {"name": DESCRIPTORS, "shape": [1, network.dimension, -1, -1]}},  # fmt: skip
-        "normalisation": {"mean": MEAN, "scale": SCALE},
+        "normalisation": {"mean": 0.0, "scale": 1.0, "per_image": network.per_image},
         "training": training,
         "parity": {kind: f"parity/{name}_{kind}.npy" for kind in tensors},
     }

@@ -6,9 +6,7 @@ import torch
 from torch.nn import functional
 
 from regolith_train.losses import sample_descriptors
-from regolith_train.networks import CELL
-
-MEAN, SCALE = 0.0, 1.0  # of the network's input, (grey / 255 - MEAN) / SCALE
+from regolith_train.networks import CELL, inputs
 
 
 def score_map(logits):
@@ -32,11 +30,23 @@ def suppress(scores, radius):
     return kept
 
 
-def refine(scores, rows, columns):
-    """Sub-pixel places: the centre of mass of the scores in the 3 × 3 pixels around."""
+def corner_weight(image):
+    """Weight of each pixel's score by the corner that the image (height × width, 0 to 1) has there: 1 × 1 × height × width. See
+    corner_weight.h: sqrt((λ + 0.003) / 0.0625), λ the smaller eigenvalue of the gradients' matrix, in variances of the image."""
+    padded = functional.pad(image[None, None], (1, 1, 1, 1), mode="reflect")
+    sobel = torch.tensor([[-1.0, 0, 1], [-2, 0, 2], [-1, 0, 1]]) / 20
+    x, y = functional.conv2d(padded, torch.stack([sobel, sobel.T])[:, None])[0]
+    xx, xy, yy = 25 * functional.avg_pool2d(torch.stack([x * x, x * y, y * y])[None], 5, 1, 2)[0]
+    smaller = 0.5 * ((xx + yy) - ((xx - yy) ** 2 + 4 * xy * xy).sqrt()).clamp(min=0)
+    variance = (image.std(unbiased=False) + 0.02) ** 2
+    return ((smaller / variance + 0.003) / 0.0625).sqrt()[None, None]
+
+
+def refine(scores, rows, columns, radius=2):
+    """Sub-pixel places: the centre of mass of the scores in the 5 × 5 pixels around."""
     total = shift_x = shift_y = 0.0
-    for dy in (-1, 0, 1):
-        for dx in (-1, 0, 1):
+    for dy in range(-radius, radius + 1):
+        for dx in range(-radius, radius + 1):
             value = scores[rows + dy, columns + dx]
             total, shift_x, shift_y = total + value, shift_x + dx * value, shift_y + dy * value
     return torch.stack([columns + shift_x / total, rows + shift_y / total], dim=1)
@@ -47,13 +57,14 @@ def detect_and_describe(network, image, count=500, radius=4, border=4, floor=0.0
     """The `count` strongest keypoints (n × 2), their scores and descriptors (n × dimension) of a grey image (height × width, 0 to
     1)."""
     height, width = image.shape
-    padded = functional.pad(image[None, None], (0, -width % CELL, 0, -height % CELL), mode="replicate")
-    logits, descriptors = network((padded - MEAN) / SCALE)
+    taken = inputs(network, image[None, None])
+    logits, descriptors = network(functional.pad(taken, (0, -width % CELL, 0, -height % CELL), mode="replicate"))
     scores = score_map(logits)[:, :, :height, :width]
-    kept = suppress(scores, radius)[0, 0]
+    smoothed = 9 * functional.avg_pool2d(scores, 3, 1, 1) * corner_weight(image)
+    kept = suppress(smoothed, radius)[0, 0]
     kept[:border], kept[-border:], kept[:, :border], kept[:, -border:] = False, False, False, False
-    rows, columns = torch.nonzero(kept & (scores[0, 0] > floor), as_tuple=True)
-    strengths = scores[0, 0, rows, columns]
+    rows, columns = torch.nonzero(kept & (smoothed[0, 0] > floor), as_tuple=True)
+    strengths = smoothed[0, 0, rows, columns]
     order = torch.argsort(strengths, descending=True, stable=True)[:count]
     rows, columns = rows[order], columns[order]
     pixels = torch.stack([columns, rows], dim=1).float()

@@ -93,19 +93,46 @@ def contrastive_loss(first, second, teacher, places, valid, temperature, teacher
 
 def paper_loss(network, sample, weight=1.2):
     """(L_p + L_wp) + λ L_d, with λ = 1.2."""
-    logits, descriptors = network(flat(sample["images"]))
+    logits, descriptors = network(sample["inputs"])
     detection = 2 * detector_loss(logits, flat(sample["labels"]), flat(sample["inside"]), soft=False)
     first, second = both(descriptors, sample["places"])
     description = triplet_loss(first, second, sample["places"][:, 1], sample["valid"])
     return {"detector": detection, "descriptor": description, "loss": detection + weight * description}
 
 
-def ghost_loss(network, sample, weight=0.7, temperature=0.07):
-    logits, descriptors = network(flat(sample["images"]))
+def smoothed_scores(logits):
+    """Probability that a keypoint lies in the 3 × 3 pixels around each pixel, batch × 1 × height × width."""
+    scores = functional.pixel_shuffle(functional.softmax(logits.float(), dim=1)[:, :-1], CELL)
+    return 9 * functional.avg_pool2d(scores, 3, 1, 1)
+
+
+def repeatability_loss(logits, inside, homographies, floor=0.003):
+    """How far (in their logarithm) scores differ from those at the same place of the other view, over pixels weighted by their
+    scores. `homographies` (batch × 3 × 3) take pixels of the first views to the second; all 0 where that is not known."""
+    height, width = inside.shape[-2:]
+    first, second = smoothed_scores(logits).unflatten(0, (-1, 2)).unbind(1)
+    rows, columns = torch.meshgrid(torch.arange(height, dtype=torch.float32, device=logits.device),
+                                   torch.arange(width, dtype=torch.float32, device=logits.device), indexing="ij")  # fmt: skip
+    # Not a matrix product: autocast would take it in bf16, which has pixels to a few pixels.
+    mapped = sum(homographies[:, None, None, :, axis] * values[None, :, :, None]
+                 for axis, values in enumerate((columns, rows, torch.ones_like(rows))))  # fmt: skip
+    grid = (2 * mapped[..., :2] / mapped[..., 2:].clamp(min=1e-6) + 1) / torch.tensor([width, height], device=logits.device) - 1
+    both_inside = torch.cat([second, inside[1::2].float()], dim=1)
+    warped, seen = functional.grid_sample(both_inside, grid, align_corners=False).unbind(1)
+    known = (homographies[:, 2, 2] > 0)[:, None, None]
+    weight = 0.5 * (first[:, 0] + warped).detach() * (seen > 0.99) * inside[0::2, 0] * known
+    difference = ((first[:, 0] + floor).log() - (warped + floor).log()).abs()
+    return (weight * difference).sum() / weight.sum().clamp(min=1)
+
+
+def ghost_loss(network, sample, weight=0.7, temperature=0.07, repeatability_weight=1.5):
+    logits, descriptors = network(sample["inputs"])
     detection = 2 * detector_loss(logits, flat(sample["labels"]), flat(sample["inside"]), soft=True)
     first, second = both(descriptors, sample["places"])
     description = contrastive_loss(first, second, sample["teacher"], sample["places"][:, 1], sample["valid"], temperature)
-    return {"detector": detection, "descriptor": description, "loss": detection + weight * description}
+    repeatability = repeatability_loss(logits, flat(sample["inside"]), sample["homography"])
+    loss = detection + weight * description + repeatability_weight * repeatability
+    return {"detector": detection, "descriptor": description, "repeatability": repeatability, "loss": loss}
 
 
 def flat(values):

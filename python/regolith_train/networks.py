@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The three feature networks: an encoder to 1/8 resolution, a detector head and a descriptor head.
 
-Every network maps a grey image, batch × 1 × height × width with sides divisible by 8 and values
-(grey / 255 - mean) / scale, to
+Every network maps a grey image, batch × 1 × height × width with sides divisible by 8 and values `inputs(network, grey / 255)`, to
 
   logits       batch × 65 × height/8 × width/8: the 64 pixels of each 8 × 8 cell, row by row, then "no keypoint here"
   descriptors  batch × dimension × height/8 × width/8, unit length along the second axis; the one of cell (i, j) belongs
@@ -104,6 +103,7 @@ class SuperPoint(nn.Module):
     """SuperPoint's VGG encoder: 64-64-64-64-128-128-128-128 with three poolings."""
 
     dimension = 256
+    per_image = False
 
     def __init__(self):
         super().__init__()
@@ -125,6 +125,7 @@ class GhostPaper(nn.Module):
     """The paper's encoder: GhostNet's first convolution and six bottlenecks, width × 1.2, the heads of SuperPoint."""
 
     dimension = 256
+    per_image = False
     # expanded, outputs, stride, squeeze-and-excitation
     BOTTLENECKS = [(16, 16, 1, False), (48, 24, 2, False), (72, 24, 1, False),
                    (72, 40, 2, True), (120, 40, 1, True), (240, 80, 1, False)]  # fmt: skip
@@ -144,6 +145,18 @@ class GhostPaper(nn.Module):
         return self.heads(self.encoder(image))
 
 
+class Blur(nn.Module):
+    """Binomial 3 × 3 blur of each channel: without it, what a strided convolution sees depends on where its grid lies (Zhang 2019)."""
+
+    def __init__(self, channels):
+        super().__init__()
+        taps = torch.tensor([0.25, 0.5, 0.25])
+        self.register_buffer("kernel", torch.outer(taps, taps).repeat(channels, 1, 1, 1), persistent=False)
+
+    def forward(self, features):
+        return functional.conv2d(features, self.kernel, padding=1, groups=features.shape[1])
+
+
 class Ghost(nn.Module):
     """Ours: the paper's idea made slim. Where the time of `GhostPaper` goes (its first layers at 1/2 resolution, heads 256 wide)
     plain strided convolutions of few channels stand instead; Ghost bottlenecks do the work at 1/8.
@@ -154,16 +167,18 @@ class Ghost(nn.Module):
     """
 
     dimension = 128
+    per_image = True
 
     def __init__(self, half=16, quarter=24, eighth=64, depth=4, width=64, lifted=8):
         super().__init__()
-        self.stem = convolution(1, half, stride=2)
-        self.middle = nn.Sequential(convolution(half, quarter, stride=2), GhostBottleneck(quarter, 2 * quarter, quarter))
-        self.deep = nn.Sequential(convolution(quarter, eighth, stride=2),
+        self.stem = convolution(1, half, size=5, stride=2)
+        self.middle = nn.Sequential(Blur(half), convolution(half, quarter, stride=2),
+                                    GhostBottleneck(quarter, 2 * quarter, quarter))  # fmt: skip
+        self.deep = nn.Sequential(Blur(quarter), convolution(quarter, eighth, stride=2),
                                   *[GhostBottleneck(eighth, 2 * eighth, eighth) for _ in range(depth)])  # fmt: skip
         self.context = nn.Conv2d(eighth, quarter, 1)
         self.lift = nn.Conv2d(quarter, lifted, 1)
-        self.corner = nn.Sequential(convolution(half + lifted, half), nn.Conv2d(half, 4, 1))
+        self.corner = nn.Sequential(convolution(half + lifted, half), nn.Conv2d(half, 4, 3, padding=1))
         self.none = nn.Conv2d(eighth, 1, 1)
         self.descriptor = nn.Sequential(convolution(eighth, width), nn.Conv2d(width, self.dimension, 1))
 
@@ -178,8 +193,20 @@ class Ghost(nn.Module):
         return logits, functional.normalize(self.descriptor(eighth), dim=1)
 
 
+def normalise(image, floor=0.02):
+    """Images by their own mean and deviation (the latter at least about `floor`, so that noise stays small), so that exposure does
+    not matter."""
+    centred = image - image.mean((2, 3), keepdim=True)
+    return centred / ((centred * centred).mean((2, 3), keepdim=True) + floor**2).sqrt()
+
+
+def inputs(network, images):
+    """What a network takes for images of 0 to 1."""
+    return normalise(images) if network.per_image else images
+
+
 def twice(features):
-    return functional.interpolate(features, scale_factor=2.0, mode="nearest")
+    return functional.interpolate(features, scale_factor=2.0, mode="bilinear", align_corners=False)
 
 
 NETWORKS = {"ghost": Ghost, "ghost_paper": GhostPaper, "superpoint": SuperPoint}

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Regolith authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The training loop: resumes from its last checkpoint, writes its curve as CSV."""
+"""The training loop: resumes from its last checkpoint, writes its curves as CSV. Under `torchrun` each process takes `batch` samples
+of a step (DistributedDataParallel)."""
 
 import collections
 import csv
@@ -12,11 +13,13 @@ import pathlib
 import time
 
 import torch
+from torch import distributed
+from torch.nn.parallel import DistributedDataParallel
 from torch.utils.data import DataLoader
 
 from regolith_train.data import Mixture, SimulatedPairs, SingleImages, validation
 from regolith_train.losses import LOSSES
-from regolith_train.networks import NETWORKS
+from regolith_train.networks import NETWORKS, inputs
 
 
 @dataclasses.dataclass
@@ -29,14 +32,17 @@ class TrainingOptions:
     schedule: str = "cosine"  # or "constant", the paper's
     warm_up: int = 200  # steps
     weight_decay: float = 1e-4
+    gradient_limit: float = 5.0  # norm; 0: none
     full_rotation_share: float = 0.45  # of the homographies that turn by up to 180 degrees
+    shift_share: float = 0.0  # of the homographies that are shifts by whole pixels
     pairs_share: float = 0.3  # of the samples that come from the simulator
     average_decay: float = 0.995  # a step, of the averaged weights
     seed: int = 1
     threads: int = 2
     workers: int = 1
     bf16: bool = True
-    checkpoint_every: int = 250
+    checkpoint_every: int = 250  # steps; the loss of images kept out of training is found then too
+    validation_samples: int = 32
 
 
 def cache_folder():
@@ -62,7 +68,9 @@ class Run:
         self.folder = pathlib.Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
         torch.manual_seed(options.seed)
-        self.network = NETWORKS[options.network]().to(memory_format=torch.channels_last)
+        self.device = torch.device("cuda", local_rank()) if torch.cuda.is_available() else torch.device("cpu")
+        self.network = NETWORKS[options.network]().to(self.device, memory_format=torch.channels_last)
+        self.parallel = DistributedDataParallel(self.network) if distributed.is_initialized() else self.network
         self.optimiser = torch.optim.AdamW(self.network.parameters(), lr=options.rate, weight_decay=options.weight_decay)
         # The mean of the weights over the last few hundred steps is better than any of them, and good at any time of the schedule.
         self.average = {name: value.clone() for name, value in self.network.state_dict().items()}
@@ -76,7 +84,7 @@ class Run:
         return self.folder / "checkpoint.pt"
 
     def load(self, path):
-        state = torch.load(path, map_location="cpu", weights_only=False)
+        state = torch.load(path, map_location=self.device, weights_only=False)
         if state["network_name"] != self.options.network:
             raise SystemExit(f"{path}: holds {state['network_name']}, not {self.options.network}; name another --name")
         self.network.load_state_dict(state["network"])
@@ -103,15 +111,29 @@ class Run:
     def advance(self, sample):
         for group in self.optimiser.param_groups:
             group["lr"] = self.options.rate * learning_rate(self.options, self.step)
-        with torch.autocast("cpu", torch.bfloat16, enabled=self.options.bf16):
-            terms = LOSSES[self.options.loss](self.network, sample)
+        terms = self.terms(self.parallel, sample)
         self.optimiser.zero_grad(set_to_none=True)
         terms["loss"].backward()
-        torch.nn.utils.clip_grad_norm_(self.network.parameters(), 5.0)
+        if self.options.gradient_limit > 0:
+            torch.nn.utils.clip_grad_norm_(self.network.parameters(), self.options.gradient_limit)
         self.optimiser.step()
         self.update_average()
         self.step += 1
         return {name: float(value.detach()) for name, value in terms.items()}
+
+    def terms(self, network, sample):
+        sample = {name: values.to(self.device) for name, values in sample.items()}
+        sample["inputs"] = inputs(self.network, sample["images"].flatten(0, 1))
+        with torch.autocast(self.device.type, torch.bfloat16, enabled=self.options.bf16):
+            return LOSSES[self.options.loss](network, sample)
+
+    @torch.no_grad()
+    def validate(self, batches):
+        """Mean terms of the loss over batches that are not trained on."""
+        self.network.eval()
+        terms = [self.terms(self.network, sample) for sample in batches]
+        self.network.train()
+        return {name: float(sum(term[name] for term in terms)) / len(terms) for name in terms[0]}
 
     def update_average(self):
         # Early steps would otherwise carry the random start along.
@@ -123,43 +145,86 @@ class Run:
                 self.average[name].copy_(value)
 
 
-def datasets(options, images, pairs, labels):
-    single = SingleImages([path for path in images if not validation(path)], labels)
+def local_rank():
+    return int(os.environ.get("LOCAL_RANK", 0))
+
+
+def join_processes():
+    """Under torchrun, this process's number and how many there are; without it 0 and 1."""
+    if "WORLD_SIZE" not in os.environ:
+        return 0, 1
+    if not distributed.is_initialized():
+        distributed.init_process_group("nccl" if torch.cuda.is_available() else "gloo")
+    return distributed.get_rank(), distributed.get_world_size()
+
+
+def mixture(options, images, pairs, labels, length, kept_out=False):
+    """`length` samples of what is trained on, or of what is kept out of it."""
+    single = SingleImages([path for path in images if validation(path) == kept_out], labels, shift_share=options.shift_share)
     single.limits.full_rotation_share = options.full_rotation_share
-    simulated = SimulatedPairs(pairs, labels)
-    mixture = Mixture([single, simulated], [1 - options.pairs_share, options.pairs_share],
-                      length=options.steps * options.batch, seed=options.seed)  # fmt: skip
-    data = collections.Counter(f"pictures {pathlib.Path(path).name.split('_')[0]}" for path in single.images)
-    data.update(f"simulated pairs {path.parent.parent.name}" for path in simulated.pairs)
-    return mixture, dict(sorted(data.items()))
+    simulated = SimulatedPairs(pairs, labels, kept_out=kept_out)
+    return Mixture([single, simulated], [1 - options.pairs_share, options.pairs_share], length, options.seed)
+
+
+def sources(mixed):
+    """How many pictures (by the first part of their names) and pairs (by scenario) samples are drawn from."""
+    counts = collections.Counter()
+    for dataset in mixed.datasets:
+        if isinstance(dataset, SingleImages):
+            counts.update(f"pictures {pathlib.Path(path).name.split('_')[0]}" for path in dataset.images)
+        else:
+            counts.update(f"simulated pairs {path.parent.parent.name}" for path in dataset.pairs)
+    return dict(sorted(counts.items()))
+
+
+class Curve:
+    """A CSV file of the terms of the loss, a row at a time."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def add(self, step, terms):
+        new = not self.path.exists()
+        with open(self.path, "a", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            if new:
+                writer.writerow(["step", *sorted(terms)])
+            writer.writerow([step, *(f"{terms[name]:.5f}" for name in sorted(terms))])
 
 
 def train(options, images, pairs, labels, folder, progress=print, start=None):
     """Trains to options.steps; what was reached is in `folder`, also where it was stopped. A run without a checkpoint begins with
     the weights `start` (name → tensor), where they are given."""
     torch.set_num_threads(options.threads)
+    rank, processes = join_processes()
     run = Run(options, folder)
     if start and run.step == 0:
         run.begin_with(start)
     (run.folder / "options.json").write_text(json.dumps(dataclasses.asdict(options), indent=2) + "\n")
-    mixture, run.data = datasets(options, images, pairs, labels)
-    mixture.start = run.step * options.batch
-    loader = DataLoader(mixture, batch_size=options.batch, num_workers=options.workers, drop_last=True)
+    samples = mixture(options, images, pairs, labels, options.steps * options.batch * processes)
+    samples.share(run.step * options.batch, options.batch, rank, processes)
+    run.data = sources(samples)
+    kept_out = mixture(options, images, pairs, labels, options.validation_samples, kept_out=True)
+    validation_batches = list(DataLoader(kept_out, options.batch, drop_last=True)) if kept_out.datasets else []
+    loader = DataLoader(samples, batch_size=options.batch, num_workers=options.workers, drop_last=True)
+    curve, validation_curve = Curve(run.folder / "curve.csv"), Curve(run.folder / "validation.csv")
     started, first = time.monotonic(), run.step
     run.network.train()
-    with open(run.folder / "curve.csv", "a", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        for sample in loader:
-            terms = run.advance(sample)
-            if run.step % 10 == 0:
-                writer.writerow([run.step, *(f"{terms[name]:.5f}" for name in sorted(terms))])
-                file.flush()
-            if run.step % 50 == 0:
-                pace = (time.monotonic() - started) / (run.step - first)
-                left = pace * (options.steps - run.step) / 60
-                progress(f"step {run.step}/{options.steps}  " + "  ".join(f"{n} {v:.3f}" for n, v in terms.items())
-                         + f"  {pace:.2f} s a step, {left:.0f} min left")  # fmt: skip
-            if run.step % options.checkpoint_every == 0:
-                run.save()
-    run.save()
+    for sample in loader:
+        terms = run.advance(sample)
+        if rank > 0:
+            continue
+        if run.step % 10 == 0:
+            curve.add(run.step, terms)
+        if run.step % 50 == 0:
+            pace = (time.monotonic() - started) / (run.step - first)
+            left = pace * (options.steps - run.step) / 60
+            progress(f"step {run.step}/{options.steps}  " + "  ".join(f"{n} {v:.3f}" for n, v in terms.items())
+                     + f"  {pace:.2f} s a step, {left:.0f} min left")  # fmt: skip
+        if run.step % options.checkpoint_every == 0:
+            run.save()
+            if validation_batches:
+                validation_curve.add(run.step, run.validate(validation_batches))
+    if rank == 0:
+        run.save()
     return run

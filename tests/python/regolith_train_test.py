@@ -5,7 +5,10 @@
 (/usr/bin/python3); without any torch it reports itself as skipped (exit code 77)."""
 
 import math
+import os
 import pathlib
+import socket
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -21,12 +24,26 @@ except ImportError as error:
     sys.exit(77)
 
 from regolith_train import losses, networks  # noqa: E402
-from regolith_train.data import SingleImages, flow_at  # noqa: E402
+from regolith_train.data import Mixture, SingleImages, flow_at  # noqa: E402
 from regolith_train.homography import HomographyRange, random_homography, transform, warp_image  # noqa: E402
 from regolith_train.inference import detect_and_describe, mutual_matches, score_map, suppress  # noqa: E402
 from regolith_train.labels import label_path  # noqa: E402
-from regolith_train.training import TrainingOptions, train  # noqa: E402
+from regolith_train.training import TrainingOptions, mixture, train  # noqa: E402
 from regolith_train.vocabulary import spherical_kmeans  # noqa: E402
+
+
+TWO_PROCESSES = """\
+import sys
+sys.path.insert(0, {path!r})
+import torch
+from torch import distributed
+from regolith_train.training import TrainingOptions, join_processes, train
+options = TrainingOptions(network="ghost", steps=2, batch=2, workers=0, warm_up=1, bf16=False, threads=1, checkpoint_every=1)
+rank, _ = join_processes()
+run = train(options, {images!r}, [], {labels!r}, {out!r} + f"/run_{{rank}}", progress=lambda line: None)
+torch.save(run.network.state_dict(), {out!r} + f"/weights_{{rank}}.pt")
+distributed.destroy_process_group()
+"""
 
 
 def texture(height, width, seed=1):
@@ -94,6 +111,21 @@ class Detector(unittest.TestCase):
         logits = 20 * losses.detector_targets(labels, 32, 40, soft=True)
         kept = suppress(score_map(logits), 4) & (score_map(logits) > 0.5)
         self.assertEqual({(int(x), int(y)) for _, _, y, x in torch.nonzero(kept)}, {(13, 9), (30, 21)})
+
+
+class Repeatability(unittest.TestCase):
+    def test_scores_that_move_with_the_homography_cost_nothing(self):
+        labels = torch.tensor([[[13.0, 9.0, 1.0], [30.0, 21.0, 1.0]], [[18.0, 12.0, 1.0], [35.0, 24.0, 1.0]]])
+        logits = 20 * losses.detector_targets(labels, 40, 48, soft=True)
+        inside = torch.ones(2, 1, 40, 48, dtype=torch.bool)
+        moved = torch.tensor([[[1.0, 0, 5], [0, 1, 3], [0, 0, 1]]])
+        self.assertLess(float(losses.repeatability_loss(logits, inside, moved)), 1e-3)
+        self.assertGreater(float(losses.repeatability_loss(logits, inside, torch.eye(3)[None])), 1.0)
+        self.assertEqual(float(losses.repeatability_loss(logits, inside, torch.zeros(1, 3, 3))), 0.0)
+
+    def test_exposure_does_not_change_what_ghost_sees(self):
+        image = torch.from_numpy(texture(64, 96))[None, None]
+        torch.testing.assert_close(networks.normalise(0.4 * image + 0.1), networks.normalise(image), atol=0.02, rtol=0.02)
 
 
 class Descriptors(unittest.TestCase):
@@ -167,6 +199,41 @@ class Training(unittest.TestCase):
         self.assertEqual((whole.step, parts.step), (4, 4))
         for name, value in whole.network.state_dict().items():
             torch.testing.assert_close(parts.network.state_dict()[name], value, msg=name)
+
+    def test_processes_share_the_samples_of_one(self):
+        alone = Mixture([SingleImages(self.images, self.labels)], [1.0], 24, seed=3)
+        alone.share(start=0, batch=4, rank=0, processes=1)
+        numbers = []
+        for rank in (0, 1):
+            part = Mixture([SingleImages(self.images, self.labels)], [1.0], 24, seed=3)
+            part.share(start=4, batch=2, rank=rank, processes=2)  # of two steps each has seen 4
+            self.assertEqual(len(part), 8)
+            numbers.append(part[0]["places"])
+        torch.testing.assert_close(numbers[0], alone[8]["places"])
+        torch.testing.assert_close(numbers[1], alone[10]["places"])
+
+    def test_two_processes_train_one_network(self):
+        script = pathlib.Path(self.folder.name) / "train.py"
+        script.write_text(TWO_PROCESSES.format(path=sys.path[0], images=[str(path) for path in self.images],
+                                               labels=str(self.labels), out=self.folder.name), encoding="utf-8")  # fmt: skip
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = free.getsockname()[1]
+        started = [subprocess.Popen([sys.executable, script], env={**os.environ, "WORLD_SIZE": "2", "RANK": str(rank), "LOCAL_RANK": "0",
+                                    "MASTER_ADDR": "127.0.0.1", "MASTER_PORT": str(port)}) for rank in (0, 1)]  # fmt: skip
+        self.assertEqual([process.wait(timeout=120) for process in started], [0, 0])
+        states = [torch.load(pathlib.Path(self.folder.name) / f"weights_{rank}.pt") for rank in (0, 1)]
+        for name, value in states[0].items():
+            if "running" not in name:  # each process normalises by its own samples
+                torch.testing.assert_close(states[1][name], value, msg=name)
+
+    def test_what_is_kept_out_is_not_trained_on(self):
+        options = TrainingOptions(pairs_share=0.0)
+        paths = [pathlib.Path(f"set/picture_{index}.png") for index in range(200)]
+        trained, kept_out = (mixture(options, paths, [], self.labels, 8, kept_out).datasets[0].images for kept_out in (False, True))
+        self.assertFalse(set(trained) & set(kept_out))
+        self.assertEqual(len(trained) + len(kept_out), 200)
+        self.assertGreater(len(kept_out), 2)
 
     def test_detection_and_description_agree_in_length(self):
         pixels, scores, descriptors = detect_and_describe(networks.Ghost().eval(), torch.from_numpy(texture(61, 83)), 20)

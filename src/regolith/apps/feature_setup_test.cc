@@ -22,7 +22,7 @@ std::string WriteModel(const TestFolder& folder) {
                 "outputs:\n"
                 "  logits: {name: logits, shape: [1, 65, -1, -1]}\n"
                 "  descriptors: {name: descriptors, shape: [1, 64, -1, -1]}\n"
-                "normalisation: {mean: 0, scale: 1}\n");
+                "normalisation: {mean: 0, scale: 1, per_image: false}\n");
   return folder.Path("net.yaml");
 }
 

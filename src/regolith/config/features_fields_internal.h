@@ -50,6 +50,9 @@ void Fields(Archive& archive, DescriptorMatcherOptions& matcher) {
   archive("min_similarity", matcher.min_similarity);
   archive("max_hamming", matcher.max_hamming);
   archive("mutual", matcher.mutual);
+  archive("guided", matcher.guided);
+  archive("guided_ratio", matcher.guided_ratio);
+  archive("guided_similarity", matcher.guided_similarity);
 }
 
 template <typename Archive>
@@ -59,7 +62,7 @@ void Fields(Archive& archive, OutlierRejectionOptions& rejection) {
   archive("max_iterations", rejection.max_iterations);
   archive("min_matches", rejection.min_matches);
   archive("neighbours", rejection.neighbours);
-  archive("neighbour_share", rejection.neighbour_share);
+  archive("neighbour_spread", rejection.neighbour_spread);
   archive("neighbour_pixels", rejection.neighbour_pixels);
 }
 

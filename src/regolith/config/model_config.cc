@@ -26,6 +26,7 @@ struct Outputs {
 struct Normalisation {
   double mean = 0.0;
   double scale = 1.0;
+  bool per_image = false;
 };
 
 /// Nothing in a manifest has a default: it says what a file is.
@@ -71,9 +72,10 @@ static void Fields(FieldReader& reader, Outputs& outputs) {
 }
 
 static void Fields(FieldReader& reader, Normalisation& normalisation) {
-  Require(reader, {"mean", "scale"});
+  Require(reader, {"mean", "scale", "per_image"});
   reader("mean", normalisation.mean);
   reader("scale", normalisation.scale);
+  reader("per_image", normalisation.per_image);
   if (!(normalisation.scale > 0.0)) reader.Fail("scale", "expected a number above 0");
 }
 
@@ -107,6 +109,7 @@ static ModelManifest ReadManifest(FieldReader& reader) {
   manifest.descriptors = outputs.descriptors;
   manifest.mean = normalisation.mean;
   manifest.scale = normalisation.scale;
+  manifest.per_image = normalisation.per_image;
   return manifest;
 }
 

@@ -24,7 +24,7 @@ input: {name: image, shape: [1, 1, -1, -1]}
 outputs:
   logits: {name: logits, shape: [1, 65, -1, -1]}
   descriptors: {name: descriptors, shape: [1, 128, -1, -1]}
-normalisation: {mean: 0.5, scale: 0.25}
+normalisation: {mean: 0.5, scale: 0.25, per_image: true}
 parity: {input: parity/in.npy, logits: parity/logits.npy, descriptors: parity/descriptors.npy}
 training:
   command: python -m regolith_train train --steps 100
@@ -72,6 +72,7 @@ TEST_F(ModelConfigTest, ReadsAManifest) {
   EXPECT_EQ(manifest.descriptors.shape[1], 128);
   EXPECT_EQ(manifest.mean, 0.5);
   EXPECT_EQ(manifest.scale, 0.25);
+  EXPECT_TRUE(manifest.per_image);
   EXPECT_EQ(manifest.parity.logits, folder_ / "parity/logits.npy");
 }
 

@@ -97,6 +97,24 @@ std::shared_ptr<ov::Model> WithChannelsLast(const std::shared_ptr<ov::Model>& mo
   return steps.build();
 }
 
+/// Values of the grey levels in terms of the mean and deviation that they have over the image.
+void NormaliseByImage(const Image& image, std::array<double, 256>* values) {
+  constexpr double kFloor = 0.02;  // deviation, so that noise of flat images stays small
+  std::array<int64_t, 256> counts{};
+  for (const uint8_t grey : image.data) ++counts[grey];
+  double sum = 0.0;
+  double squares = 0.0;
+  for (size_t grey = 0; grey < counts.size(); ++grey) {
+    const auto count = static_cast<double>(counts[grey]);
+    sum += count * (*values)[grey];
+    squares += count * (*values)[grey] * (*values)[grey];
+  }
+  const auto size = static_cast<double>(image.data.size());
+  const double mean = sum / size;
+  const double variance = std::max(0.0, squares / size - mean * mean);
+  for (double& value : *values) value = (value - mean) / std::sqrt(variance + kFloor * kFloor);
+}
+
 bool HasBf16(ov::Core& core) {
   const auto capabilities = core.get_property("CPU", ov::device::capabilities);
   return std::find(capabilities.begin(), capabilities.end(), "BF16") != capabilities.end();
@@ -196,12 +214,16 @@ class FeatureNetwork::Implementation {
   std::array<float, 256> InputValues(const Image& image) const {
     const ContrastStretch stretch =
         options_.normalise_contrast ? StretchFor(image) : ContrastStretch();
-    std::array<float, 256> values{};
+    std::array<double, 256> values{};
     for (size_t grey = 0; grey < values.size(); ++grey) {
-      const double stretched = stretch.Apply(static_cast<double>(grey) / 255.0);
-      values[grey] = static_cast<float>((stretched - manifest_.mean) / manifest_.scale);
+      values[grey] = stretch.Apply(static_cast<double>(grey) / 255.0);
     }
-    return values;
+    if (manifest_.per_image) NormaliseByImage(image, &values);
+    std::array<float, 256> inputs{};
+    for (size_t grey = 0; grey < values.size(); ++grey) {
+      inputs[grey] = static_cast<float>((values[grey] - manifest_.mean) / manifest_.scale);
+    }
+    return inputs;
   }
 
   ModelManifest manifest_;

@@ -48,6 +48,9 @@ void DescriptorMatcherOptions::Check() const {
   REGOLITH_CHECK(ratio > 0.0 && ratio <= 1.0, "matcher.ratio=", ratio);
   REGOLITH_CHECK(min_similarity >= -1.0 && min_similarity < 1.0,
                  "matcher.min_similarity=", min_similarity);
+  REGOLITH_CHECK(guided_ratio > 0.0 && guided_ratio <= 1.0, "matcher.guided_ratio=", guided_ratio);
+  REGOLITH_CHECK(guided_similarity >= -1.0 && guided_similarity < 1.0,
+                 "matcher.guided_similarity=", guided_similarity);
   REGOLITH_CHECK(max_hamming >= 0 && max_hamming <= 256, "matcher.max_hamming=", max_hamming);
 }
 
@@ -57,7 +60,7 @@ void OutlierRejectionOptions::Check() const {
   REGOLITH_CHECK(max_iterations >= 1, "rejection.max_iterations=", max_iterations);
   REGOLITH_CHECK(min_matches >= 8, "rejection.min_matches=", min_matches);
   REGOLITH_CHECK(neighbours == 0 || neighbours >= 3, "rejection.neighbours=", neighbours);
-  REGOLITH_CHECK(neighbour_share >= 0.0, "rejection.neighbour_share=", neighbour_share);
+  REGOLITH_CHECK(neighbour_spread >= 0.0, "rejection.neighbour_spread=", neighbour_spread);
   REGOLITH_CHECK(neighbour_pixels > 0.0, "rejection.neighbour_pixels=", neighbour_pixels);
 }
 

@@ -80,6 +80,11 @@ struct DescriptorMatcherOptions {
   double min_similarity = 0.6;  ///< inner product, float descriptors
   int max_hamming = 64;         ///< bits, binary descriptors
   bool mutual = true;
+  /// A pair of images is matched a second time, near where the first time's inliers lead: there
+  /// a match may be less sure.
+  bool guided = true;
+  double guided_ratio = 0.95;
+  double guided_similarity = 0.5;
 
   void Check() const;
 };
@@ -89,11 +94,10 @@ struct OutlierRejectionOptions {
       1.0;  ///< pixels; a match further from its epipolar line than twice this is an outlier
   double confidence = 0.999;
   int max_iterations = 1000;
-  int min_matches = 12;  ///< with fewer, epipolar geometry is not estimated
-  int neighbours = 8;    ///< of the test against the motion of neighbours; 0: no such test
-  double neighbour_share =
-      0.25;  ///< of the neighbours' displacement that a match may differ by ...
-  double neighbour_pixels = 6.0;  ///< ... beyond these pixels
+  int min_matches = 12;           ///< with fewer, epipolar geometry is not estimated
+  int neighbours = 8;             ///< of the test against the motion of neighbours; 0: no such test
+  double neighbour_spread = 3.0;  ///< of how far neighbours differ, that a match may differ by ...
+  double neighbour_pixels = 4.0;  ///< ... beyond these pixels
 
   void Check() const;
 };

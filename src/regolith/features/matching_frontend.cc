@@ -4,11 +4,18 @@
 
 #include <algorithm>
 
+#include "regolith/features/neighbour_motion.h"
 #include "regolith/features/outlier_rejection.h"
 #include "regolith/features/track_stream.h"
 
 namespace regolith {
 namespace {
+
+DescriptorMatcherOptions GuidedOptions(DescriptorMatcherOptions options) {
+  options.ratio = options.guided_ratio;
+  options.min_similarity = options.guided_similarity;
+  return options;
+}
 
 class MatchingFrontend final : public FeatureFrontend {
  public:
@@ -17,6 +24,7 @@ class MatchingFrontend final : public FeatureFrontend {
       : options_(options),
         extractor_(std::move(extractor)),
         matcher_(options.matcher),
+        guided_matcher_(GuidedOptions(options.matcher)),
         stream_(options, camera) {}
 
   TrackedFrame Track(const FrontendInput& input) override {
@@ -57,6 +65,10 @@ class MatchingFrontend final : public FeatureFrontend {
   /// Leaves the inliers in matches_; says how many were not.
   int RejectMatches();
   void ContinueTracks();
+  /// The places and bearings of the pair's matches.
+  Correspondences Matched(const PairMatches& pair, const Correspondences& all) const;
+  /// Matches a pair again, near where its inliers lead.
+  void MatchGuided(const Correspondences& matched, PairMatches* pair);
 
   Observation Observed(size_t keypoint) const {
     return {keypoints_.pixels[keypoint], bearings_[keypoint], &keypoints_.descriptors, keypoint};
@@ -65,6 +77,7 @@ class MatchingFrontend final : public FeatureFrontend {
   FeatureOptions options_;
   std::unique_ptr<FeatureExtractor> extractor_;
   DescriptorMatcher matcher_;
+  DescriptorMatcher guided_matcher_;
   TrackStream stream_;
 
   FeatureSet keypoints_;
@@ -178,15 +191,39 @@ PairMatches MatchingFrontend::MatchPair(const Image& first, const Image& second)
   if (pair.first.size() > 0 && pair.second.size() > 0) {
     matcher_.Match(pair.first.descriptors, pair.second.descriptors, &pair.matches);
   }
+  Correspondences matched = Matched(pair, all);
+  // Where bits are compared, the second time brings more wrong ones than right ones.
+  if (options_.matcher.guided && pair.first.descriptors.type == DescriptorType::kFloat) {
+    rest.Lap("match_first");
+    pair.inliers =
+        RejectOutliers(matched, geometry.focal(), std::nullopt, options_.rejection).inliers;
+    rest.Lap("reject_first");
+    MatchGuided(matched, &pair);
+    matched = Matched(pair, all);
+  }
+  FinishPair(matched, geometry, options_.rejection, &rest, &pair);
+  return pair;
+}
+
+Correspondences MatchingFrontend::Matched(const PairMatches& pair,
+                                          const Correspondences& all) const {
   Correspondences matched;
   for (const FeatureMatch& match : pair.matches) {
     const auto one = static_cast<size_t>(match.first);
     const auto other = static_cast<size_t>(match.second);
-    geometry.Append({pair.first.pixels[one], all.first_bearings[one]},
-                    {pair.second.pixels[other], all.second_bearings[other]}, &matched);
+    stream_.geometry().Append({pair.first.pixels[one], all.first_bearings[one]},
+                              {pair.second.pixels[other], all.second_bearings[other]}, &matched);
   }
-  FinishPair(matched, geometry, options_.rejection, &rest, &pair);
-  return pair;
+  return matched;
+}
+
+void MatchingFrontend::MatchGuided(const Correspondences& matched, PairMatches* pair) {
+  if (!PredictFromNeighbours(matched.first, matched.second, pair->inliers, pair->first.pixels,
+                             options_.rejection, &guide_)) {
+    return;
+  }
+  guided_matcher_.MatchGuided(pair->first.descriptors, pair->second.descriptors, guide_,
+                              pair->second.pixels, &pair->matches);
 }
 
 }  // namespace

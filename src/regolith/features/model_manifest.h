@@ -23,8 +23,8 @@ struct ModelParity {
 
 /// A network's file and what it must be: models/NAME.yaml, made by `python -m regolith_train
 /// export`. Input: grey, 1 × 1 × height × width, sides divisible by 8, values (grey / 255 − mean) /
-/// scale. Outputs: detector logits, 1 × 65 × height/8 × width/8 (64 pixels of a cell row by row,
-/// then "none"), and descriptors, 1 × dimension × height/8 × width/8.
+/// scale, or more (per_image). Outputs: detector logits, 1 × 65 × height/8 × width/8 (64 pixels of
+/// a cell row by row, then "none"), and descriptors, 1 × dimension × height/8 × width/8.
 struct ModelManifest {
   std::string name;
   std::string path;    ///< of the ONNX file
@@ -34,6 +34,9 @@ struct ModelManifest {
   TensorDescription descriptors;
   double mean = 0.0;
   double scale = 1.0;
+  /// Values are first taken by the image's own mean and deviation, (v − mean(v)) / √(var(v) +
+  /// 0.02²), so that exposure does not matter.
+  bool per_image = false;
   ModelParity parity;
 };
 

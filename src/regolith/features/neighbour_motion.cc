@@ -151,26 +151,63 @@ class NearestInOrder {
   std::vector<Candidate> heap_;  ///< furthest first
 };
 
-/// Whether `motion` is what its neighbours make expect, beyond what all of them have in common.
-bool AgreesWith(const std::vector<Displacement>& neighbours, const Displacement& motion,
-                const AffineMotion& common, const OutlierRejectionOptions& options,
-                std::vector<double>* scratch) {
-  if (neighbours.size() < kMinNeighbours) return true;
+/// What neighbours make expect of a place: its motion beyond what all have in common, and how far
+/// (pixels) a true match may be from that.
+struct Expectation {
+  Eigen::Vector2d motion = Eigen::Vector2d::Zero();
+  double tolerance = 0.0;
+};
+
+Expectation ExpectMotion(const std::vector<Displacement>& neighbours, const Eigen::Vector2d& place,
+                         const OutlierRejectionOptions& options, std::vector<double>* scratch) {
   const AffineMotion local =
-      FitAffine(neighbours, motion.place, kLocalRounds, 0.5 * options.neighbour_pixels, scratch);
+      FitAffine(neighbours, place, kLocalRounds, 0.5 * options.neighbour_pixels, scratch);
   // The median decides what the fit, of which the slope alone is used, may have spread.
-  Eigen::Vector2d expected;
-  Eigen::Vector2d displacement;
+  Expectation expected;
+  const auto motion_here = [&](const Displacement& m) -> Eigen::Vector2d {
+    return m.motion - local.gradient * (m.place - place);
+  };
   for (int axis = 0; axis < 2; ++axis) {
-    expected[axis] = MedianOf(neighbours, scratch, [&](const Displacement& m) {
-      return m.motion[axis] - local.gradient.row(axis).dot(m.place - motion.place);
-    });
-    displacement[axis] = MedianOf(neighbours, scratch, [&](const Displacement& m) {
-      return m.motion[axis] + common.At(m.place)[axis];
-    });
+    expected.motion[axis] =
+        MedianOf(neighbours, scratch, [&](const Displacement& m) { return motion_here(m)[axis]; });
   }
-  return (motion.motion - expected).norm() <=
-         options.neighbour_pixels + options.neighbour_share * displacement.norm();
+  const double spread = MedianOf(neighbours, scratch, [&](const Displacement& m) {
+    return (motion_here(m) - expected.motion).norm();
+  });
+  expected.tolerance = options.neighbour_pixels + options.neighbour_spread * spread;
+  return expected;
+}
+
+/// Whether `motion` is what its neighbours make expect.
+bool AgreesWith(const std::vector<Displacement>& neighbours, const Displacement& motion,
+                const OutlierRejectionOptions& options, std::vector<double>* scratch) {
+  if (neighbours.size() < kMinNeighbours) return true;
+  const Expectation expected = ExpectMotion(neighbours, motion.place, options, scratch);
+  return (motion.motion - expected.motion).norm() <= expected.tolerance;
+}
+
+std::vector<Displacement> InlierMotions(const std::vector<Eigen::Vector2f>& first,
+                                        const std::vector<Eigen::Vector2f>& second,
+                                        const std::vector<uint8_t>& inliers) {
+  std::vector<Displacement> motions;
+  for (size_t row = 0; row < first.size(); ++row) {
+    if (!inliers[row]) continue;
+    motions.push_back({first[row].cast<double>(), (second[row] - first[row]).cast<double>(), row});
+  }
+  return motions;
+}
+
+/// What all motions have in common; leaves what is beyond it. Neighbours far apart show rotation
+/// and zoom poorly; all matches together show them well.
+AffineMotion TakeCommon(const OutlierRejectionOptions& options, std::vector<double>* scratch,
+                        std::vector<Displacement>* motions) {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  for (const Displacement& motion : *motions) centre += motion.place;
+  centre /= static_cast<double>(motions->size());
+  const AffineMotion common =
+      FitAffine(*motions, centre, kGlobalRounds, options.neighbour_pixels, scratch);
+  for (Displacement& motion : *motions) motion.motion -= common.At(motion.place);
+  return common;
 }
 
 }  // namespace
@@ -179,22 +216,10 @@ void RejectAgainstNeighbours(const std::vector<Eigen::Vector2f>& first,
                              const std::vector<Eigen::Vector2f>& second,
                              const OutlierRejectionOptions& options,
                              std::vector<uint8_t>* inliers) {
-  std::vector<Displacement> candidates;
-  for (size_t row = 0; row < first.size(); ++row) {
-    if (!(*inliers)[row]) continue;
-    candidates.push_back(
-        {first[row].cast<double>(), (second[row] - first[row]).cast<double>(), row});
-  }
+  std::vector<Displacement> candidates = InlierMotions(first, second, *inliers);
   if (options.neighbours == 0 || candidates.size() < kMinMatches) return;
-
-  // Neighbours far apart show rotation and zoom poorly; all matches together show them well.
   std::vector<double> scratch;
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-  for (const Displacement& candidate : candidates) centre += candidate.place;
-  centre /= static_cast<double>(candidates.size());
-  const AffineMotion common =
-      FitAffine(candidates, centre, kGlobalRounds, options.neighbour_pixels, &scratch);
-  for (Displacement& candidate : candidates) candidate.motion -= common.At(candidate.place);
+  TakeCommon(options, &scratch, &candidates);
 
   // The first pass has outliers among the neighbours; the second judges again, without them, those
   // who had.
@@ -206,7 +231,7 @@ void RejectAgainstNeighbours(const std::vector<Eigen::Vector2f>& first,
     all.Find(candidate, static_cast<size_t>(options.neighbours), &neighbours);
     for (const Displacement& neighbour : neighbours) neighbour_rows.push_back(neighbour.row);
     neighbour_ends.push_back(neighbour_rows.size());
-    (*inliers)[candidate.row] = AgreesWith(neighbours, candidate, common, options, &scratch);
+    (*inliers)[candidate.row] = AgreesWith(neighbours, candidate, options, &scratch);
   }
   std::vector<Displacement> trusted;
   for (const Displacement& candidate : candidates) {
@@ -221,9 +246,32 @@ void RejectAgainstNeighbours(const std::vector<Eigen::Vector2f>& first,
     const auto to = neighbour_rows.begin() + static_cast<std::ptrdiff_t>(begin);
     if (std::all_of(from, to, [&](size_t row) { return first_verdict[row] != 0; })) continue;
     nearest.Find(candidates[i], static_cast<size_t>(options.neighbours), &neighbours);
-    (*inliers)[candidates[i].row] =
-        AgreesWith(neighbours, candidates[i], common, options, &scratch);
+    (*inliers)[candidates[i].row] = AgreesWith(neighbours, candidates[i], options, &scratch);
   }
+}
+
+bool PredictFromNeighbours(const std::vector<Eigen::Vector2f>& first,
+                           const std::vector<Eigen::Vector2f>& second,
+                           const std::vector<uint8_t>& inliers,
+                           const std::vector<Eigen::Vector2f>& places,
+                           const OutlierRejectionOptions& options, MatchGuide* guide) {
+  std::vector<Displacement> motions = InlierMotions(first, second, inliers);
+  if (options.neighbours == 0 || motions.size() < kMinMatches) return false;
+  std::vector<double> scratch;
+  const AffineMotion common = TakeCommon(options, &scratch, &motions);
+  NearestInOrder nearest(std::move(motions));
+  std::vector<Displacement> neighbours;
+  guide->predicted.clear();
+  guide->radii.clear();
+  for (const Eigen::Vector2f& pixel : places) {
+    const Eigen::Vector2d place = pixel.cast<double>();
+    nearest.Find({place, Eigen::Vector2d::Zero(), SIZE_MAX},
+                 static_cast<size_t>(options.neighbours), &neighbours);
+    const Expectation expected = ExpectMotion(neighbours, place, options, &scratch);
+    guide->predicted.push_back((place + common.At(place) + expected.motion).cast<float>());
+    guide->radii.push_back(static_cast<float>(expected.tolerance));
+  }
+  return true;
 }
 
 }  // namespace regolith

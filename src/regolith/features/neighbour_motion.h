@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "regolith/features/descriptor_matcher.h"
 #include "regolith/features/feature_options.h"
 
 namespace regolith {
@@ -17,5 +18,14 @@ namespace regolith {
 void RejectAgainstNeighbours(const std::vector<Eigen::Vector2f>& first,
                              const std::vector<Eigen::Vector2f>& second,
                              const OutlierRejectionOptions& options, std::vector<uint8_t>* inliers);
+
+/// Where `places` of the first image should lie in the second by the motion of the inliers around
+/// them, with the radius within which RejectAgainstNeighbours would take a match. False, and
+/// `guide` as it was, where there are too few inliers to say.
+bool PredictFromNeighbours(const std::vector<Eigen::Vector2f>& first,
+                           const std::vector<Eigen::Vector2f>& second,
+                           const std::vector<uint8_t>& inliers,
+                           const std::vector<Eigen::Vector2f>& places,
+                           const OutlierRejectionOptions& options, MatchGuide* guide);
 
 }  // namespace regolith

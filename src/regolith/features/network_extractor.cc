@@ -9,6 +9,7 @@
 #include "regolith/core/stopwatch.h"
 #include "regolith/features/adaptive_threshold.h"
 #include "regolith/features/contrast.h"
+#include "regolith/features/corner_weight.h"
 #include "regolith/features/feature_network.h"
 #include "regolith/features/score_map.h"
 
@@ -42,8 +43,10 @@ class NetworkExtractor : public FeatureExtractor {
     output_ = network_.Run(image);
     stopwatch.Lap("network");
     MakeScoreMap(output_, image.width, image.height, &map_);
+    AddNeighbours(map_, &sums_);
+    corner_weight_.Apply(image, &sums_);
     stopwatch.Lap("scores");
-    suppression_.Run(map_, mask, suppression_options_, &candidates_);
+    suppression_.Run(sums_, mask, suppression_options_, &candidates_);
     DropNoise(image);
     stopwatch.Lap("suppression");
     threshold_.Select(image.width, image.height, max_keypoints, &candidates_);
@@ -86,6 +89,8 @@ class NetworkExtractor : public FeatureExtractor {
   NonMaximumSuppression suppression_;
   NetworkOutput output_;
   ScoreMap map_;
+  ScoreMap sums_;
+  CornerWeight corner_weight_;
   std::vector<Candidate> candidates_;
   std::vector<StageTime> stages_;
 };

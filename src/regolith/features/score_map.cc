@@ -13,6 +13,7 @@ namespace {
 constexpr int kCell = 8;
 constexpr int kPixels = kCell * kCell;
 constexpr int kChannels = kPixels + 1;
+constexpr int kCentreRadius = 2;  // pixels, of the square whose centre of mass a keypoint is
 // After which what is left is sorted: a ramp has one local maximum a round.
 constexpr int kRounds = 8;
 
@@ -79,13 +80,32 @@ void MakeScoreMap(const NetworkOutput& output, int width, int height, ScoreMap* 
   }
 }
 
+void AddNeighbours(const ScoreMap& map, ScoreMap* sums) {
+  sums->width = map.width;
+  sums->height = map.height;
+  sums->scores.resize(map.scores.size());
+  const auto width = static_cast<size_t>(map.width);
+  std::vector<float> columns(width + 2, 0.0F);  // a row's, a 0 on each side
+  float* inner = columns.data() + 1;
+  for (int row = 0; row < map.height; ++row) {
+    std::memcpy(inner, map.scores.data() + Place(map, row, 0), width * sizeof(float));
+    for (const int other : {row - 1, row + 1}) {
+      if (other < 0 || other >= map.height) continue;
+      const float* scores = map.scores.data() + Place(map, other, 0);
+      for (size_t x = 0; x < width; ++x) inner[x] += scores[x];
+    }
+    float* target = sums->scores.data() + Place(map, row, 0);
+    for (size_t x = 0; x < width; ++x) target[x] = columns[x] + columns[x + 1] + columns[x + 2];
+  }
+}
+
 void NonMaximumSuppression::Run(const ScoreMap& map, const Image* mask,
                                 const SuppressionOptions& options,
                                 std::vector<Candidate>* candidates) {
   keys_.clear();
   candidates->clear();
-  // Centres of mass need a pixel on each side.
-  const int border = std::max(options.border, 1);
+  // Centres of mass need pixels on each side.
+  const int border = std::max(options.border, kCentreRadius);
   if (map.width <= 2 * border || map.height <= 2 * border) return;
   Prepare(map, mask, border, options.floor);
   TakeLocalMaxima(map, options.radius);
@@ -234,11 +254,11 @@ void NonMaximumSuppression::Take(const ScoreMap& map, size_t place, int radius) 
 Eigen::Vector2f RefinePixel(const ScoreMap& map, const Candidate& candidate) {
   Eigen::Vector2f moment = Eigen::Vector2f::Zero();
   float total = 0.0F;
-  for (int dy = -1; dy <= 1; ++dy) {
+  for (int dy = -kCentreRadius; dy <= kCentreRadius; ++dy) {
     const float* row = map.scores.data() +
                        static_cast<size_t>(candidate.row + dy) * static_cast<size_t>(map.width) +
                        static_cast<size_t>(candidate.column);
-    for (int dx = -1; dx <= 1; ++dx) {
+    for (int dx = -kCentreRadius; dx <= kCentreRadius; ++dx) {
       moment += row[dx] * Eigen::Vector2f(static_cast<float>(dx), static_cast<float>(dy));
       total += row[dx];
     }

@@ -23,6 +23,11 @@ struct ScoreMap {
 /// padded by is cut off.
 void MakeScoreMap(const NetworkOutput& output, int width, int height, ScoreMap* map);
 
+/// The scores of the 3 × 3 pixels around each pixel, added: how likely a keypoint lies there to a
+/// pixel. Networks share a keypoint between pixels among them, so that this says how strong it is,
+/// wherever it lies.
+void AddNeighbours(const ScoreMap& map, ScoreMap* sums);
+
 /// A local maximum of a score map.
 struct Candidate {
   int column = 0;
@@ -67,7 +72,7 @@ class NonMaximumSuppression {
   std::vector<uint64_t> keys_;
 };
 
-/// The centre of mass of the scores in the 3 × 3 pixels around a candidate: its place to a fraction
+/// The centre of mass of the scores in the 5 × 5 pixels around a candidate: its place to a fraction
 /// of a pixel.
 Eigen::Vector2f RefinePixel(const ScoreMap& map, const Candidate& candidate);
 

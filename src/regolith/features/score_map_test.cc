@@ -53,6 +53,17 @@ TEST(MakeScoreMap, IsTheSoftmaxOfEachCellLaidOutInTheImage) {
   }
 }
 
+TEST(AddNeighbours, AddsThreeByThreePixelsAndEndsAtTheEdges) {
+  ScoreMap map;
+  map.width = 4;
+  map.height = 3;
+  map.scores = {1.0F, 2.0F, 4.0F, 8.0F, 0.0F, 0.0F, 0.5F, 0.0F, 16.0F, 0.0F, 0.0F, 32.0F};
+  ScoreMap sums;
+  AddNeighbours(map, &sums);
+  EXPECT_EQ(sums.scores, (std::vector<float>{3.0F, 7.5F, 14.5F, 12.5F, 19.0F, 23.5F, 46.5F, 44.5F,
+                                             16.0F, 16.5F, 32.5F, 32.5F}));
+}
+
 TEST(MakeScoreMap, StandsLargeLogits) {
   std::vector<float> logits(kChannels, -500.0F);
   logits[9] = 900.0F;
