@@ -60,7 +60,7 @@ class Features(ProgramTest):
         self.assertIn("tracked features", (out / "report.html").read_text())
 
     def test_images_change_neither_trajectory_nor_map(self):
-        without, images, _ = self.run_with("lio", "--pipeline", "lio")
+        without, images, _ = self.run_with("lio", "--pipeline", "lio", "--set", "lio.wheels=true")
         self.assertEqual(images, [])
         tracked, _, _ = self.run_with("st_lk", "--features", "st_lk")
         for name in ("trajectory.tum", "map.ply"):

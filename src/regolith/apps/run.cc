@@ -145,6 +145,7 @@ int Run(const RunArguments& arguments) {
   read.wheels = system.needs().wheels;
   read.cameras = system.needs().cameras;
   read.skip_absent_cameras = true;  // the trajectory stands without them
+  read.skip_absent_wheels = setup.pipeline.lio.lidar;
   read.cuts = setup.cuts;
   const auto source = OpenRecording(setup.identity, setup.rig, read);
   PrepareOutputFolder(arguments.out, arguments.overwrite);

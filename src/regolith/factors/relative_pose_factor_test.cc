@@ -5,9 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <vector>
-
-#include <ceres/gradient_checker.h>
 
 namespace regolith {
 namespace {
@@ -48,23 +45,40 @@ TEST(RelativePoseFactor, CountsItsErrorInStandardDeviations) {
   EXPECT_LT((residuals - root * error).norm(), 1e-12);
 }
 
+// By hand: Eigen matrices on the heap cannot be shared with Debian's Ceres
+// (ceres::GradientChecker), since our processor flags give them another alignment.
 TEST(RelativePoseFactor, JacobiansAreThoseOfTheResiduals) {
   const RelativePoseFactor factor(kMeasured, SquareRootInformation());
   Vector6d error;
   error << 0.2, -0.3, 0.4, 0.5, -0.7, 0.2;
-  const PoseBlock first = ToPoseBlock(kFirst);
-  const PoseBlock second = ToPoseBlock(kFirst * Plus(kMeasured, error));
-  const std::array<const double*, 2> blocks = {first.data(), second.data()};
+  const std::array<PoseBlock, 2> poses = {ToPoseBlock(kFirst),
+                                          ToPoseBlock(kFirst * Plus(kMeasured, error))};
   const PoseManifold manifold;
-  const std::vector<const ceres::Manifold*> manifolds = {&manifold, &manifold};
-  ceres::GradientChecker checker(&factor, &manifolds, ceres::NumericDiffOptions());
-  ceres::GradientChecker::ProbeResults results;
-  // The checker's own verdict is relative, and fails on entries that are 0.
-  checker.Probe(blocks.data(), 1e-6, &results);
-  for (size_t i = 0; i < 2; ++i) {
-    const auto& analytic = results.local_jacobians[i];
-    const auto& numeric = results.local_numeric_jacobians[i];
-    EXPECT_LT((analytic - numeric).cwiseAbs().maxCoeff(), 1e-8) << "pose " << i;
+  std::array<Eigen::Matrix<double, 6, kPoseBlockSize, Eigen::RowMajor>, 2> ambient;
+  const std::array<const double*, 2> blocks = {poses[0].data(), poses[1].data()};
+  std::array<double*, 2> jacobians = {ambient[0].data(), ambient[1].data()};
+  Vector6d residuals;
+  ASSERT_TRUE(factor.Evaluate(blocks.data(), residuals.data(), jacobians.data()));
+  constexpr double kStep = 1e-5;
+  for (size_t pose = 0; pose < 2; ++pose) {
+    Eigen::Matrix<double, kPoseBlockSize, 6, Eigen::RowMajor> plus;
+    ASSERT_TRUE(manifold.PlusJacobian(poses[pose].data(), plus.data()));
+    const Matrix6d analytic = ambient[pose] * plus;
+    Matrix6d numeric;
+    for (int axis = 0; axis < 6; ++axis) {
+      std::array<Vector6d, 2> ends;
+      for (size_t side = 0; side < 2; ++side) {
+        Vector6d tangent = Vector6d::Zero();
+        tangent[axis] = side == 0 ? -kStep : kStep;
+        PoseBlock moved;
+        ASSERT_TRUE(manifold.Plus(poses[pose].data(), tangent.data(), moved.data()));
+        std::array<const double*, 2> changed = blocks;
+        changed[pose] = moved.data();
+        ASSERT_TRUE(factor.Evaluate(changed.data(), ends[side].data(), nullptr));
+      }
+      numeric.col(axis) = (ends[1] - ends[0]) / (2.0 * kStep);
+    }
+    EXPECT_LT((analytic - numeric).cwiseAbs().maxCoeff(), 1e-7) << "pose " << pose;
   }
 }
 

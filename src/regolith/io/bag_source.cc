@@ -122,10 +122,12 @@ class BagSource : public SensorSource {
     CheckCuts(options.cuts, rig);
     for (const BagSensor& sensor : SensorsOf(rig)) {
       if (!IsWanted(sensor.sensor, options)) continue;
-      if (options.skip_absent_cameras && sensor.IsCamera() &&
-          FindName(bag_->topics(), sensor) == bag_->topics().end()) {
-        notices_.push_back("no images of camera " + sensor.sensor + ": " + path + " has no topic " +
-                           sensor.topic);
+      const bool may_lack = sensor.IsCamera()
+                                ? options.skip_absent_cameras
+                                : sensor.sensor == "wheels" && options.skip_absent_wheels;
+      if (may_lack && FindName(bag_->topics(), sensor) == bag_->topics().end()) {
+        const std::string what = sensor.IsCamera() ? "images of camera " + sensor.sensor : "wheels";
+        notices_.push_back("no " + what + ": " + path + " has no topic " + sensor.topic);
         continue;
       }
       AddStream(FindTopic(*bag_, sensor), rig, options.cuts);

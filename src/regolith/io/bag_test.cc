@@ -316,6 +316,15 @@ TEST(BagSource, WrongTopicsAreNamed) {
     EXPECT_FALSE(std::holds_alternative<CameraFrame>(event));
   }
   EXPECT_THAT(source->Notices(), testing::Contains(HasSubstr("no topic /elsewhere")));
+
+  rig = MakeRig();
+  rig.wheels.emplace().topic = "/nowhere";
+  options = {};
+  options.wheels = true;
+  EXPECT_THAT(ErrorOf([&] { OpenBagSource(path, rig, options); }), HasSubstr("no topic /nowhere"));
+  options.skip_absent_wheels = true;
+  EXPECT_THAT(OpenBagSource(path, rig, options)->Notices(),
+              testing::Contains(HasSubstr("no topic /nowhere")));
 }
 
 TEST(BagSource, CloudsWithoutRingAndTimeAreReported) {

@@ -50,6 +50,7 @@ struct ReadOptions {
   std::vector<std::string> cameras;  ///< names in the rig
   /// Cameras whose topic a bag lacks are left out, with a notice, instead of refused.
   bool skip_absent_cameras = false;
+  bool skip_absent_wheels = false;  ///< the same for the wheels' topic
   bool wheels = false;
   std::vector<TopicCut> cuts;
 };

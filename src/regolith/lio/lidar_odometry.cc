@@ -75,6 +75,7 @@ std::vector<ScanEstimate> LidarOdometry::AddImu(const ImuSample& sample) {
 
 std::vector<ScanEstimate> LidarOdometry::AddWheels(const WheelOdometry& odometry) {
   if (!T_body_base_) return {};
+  wheels_came_ = true;
   if (inertial_) {
     inertial_->AddWheels(odometry);
   } else {
@@ -102,7 +103,7 @@ bool LidarOdometry::IsReady(const LidarScan& scan) const {
   const bool is_late = SecondsBetween(end, waiting_.back().stamp) > kMostWaiting;
   if (is_late) return true;
   if (inertial_) return inertial_->has_samples() && inertial_->last_sample_time() >= end;
-  return !T_body_base_ || (!wheels_.empty() && wheels_.back().time >= end);
+  return !wheels_came_ || (!wheels_.empty() && wheels_.back().time >= end);
 }
 
 std::vector<ScanEstimate> LidarOdometry::EstimateReady(bool all) {
@@ -207,7 +208,7 @@ ScanEstimate LidarOdometry::EstimateInertial(const LidarScan& scan) {
   estimate.T_world_body = corrected * (predicted.Inverse() * PoseAt(motion, scan.stamp));
   estimate.covariance = filter.PoseCovariance();
   estimate.gyro_bias = filter.state().gyro_bias;
-  estimate.leader = estimate.match.used_scan ? "lidar+imu" : T_body_base_ ? "wheels+imu" : "imu";
+  estimate.leader = estimate.match.used_scan ? "lidar+imu" : wheels_came_ ? "wheels+imu" : "imu";
   AddDrift(corrected, &estimate);
   if (options_.lidar) {
     estimate.points = ExtendMap(scan, points_body, corrected);

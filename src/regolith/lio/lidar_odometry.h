@@ -75,6 +75,7 @@ class LidarOdometry : public ScanOdometry {
   Vector6d velocity_body_ = Vector6d::Zero();  ///< [rad/s, m/s], between the last two
   std::vector<WheelOdometry> wheels_;          ///< from `last_` on
 
+  bool wheels_came_ = false;
   std::optional<TimeNs> last_stamp_;
   size_t scans_ = 0;
   size_t invalid_points_ = 0;
