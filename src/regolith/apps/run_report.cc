@@ -86,9 +86,9 @@ ReportData ReportOf(const RunSetup& setup, const SlamSystem& system, const RunRe
   data.pipeline = setup.pipeline.name;
   const double factor =
       record.wall_seconds > 0.0 ? record.recording_seconds / record.wall_seconds : 0.0;
-  data.highlights = {{"distance", Text("%.1f m", system.trajectory().Length())},
-                     {"real-time factor", Text("%.1f ×", factor)}};
   const Trajectory trajectory = system.trajectory();
+  data.highlights = {{"distance", Text("%.1f m", trajectory.Length())},
+                     {"real-time factor", Text("%.1f ×", factor)}};
   for (const StampedPose& pose : trajectory.poses()) data.estimate.push_back(pose);
   if (evaluation && !data.estimate.empty()) {
     AddError(*evaluation, data.estimate.front().time, &data);
@@ -96,7 +96,7 @@ ReportData ReportOf(const RunSetup& setup, const SlamSystem& system, const RunRe
   data.summary = {{"complete", record.complete ? "yes" : "no: the run was ended early"},
                   {"recording", Text("%.1f s", record.recording_seconds)},
                   {"scans", std::to_string(system.scans_seen())},
-                  {"poses", std::to_string(system.trajectory().size())},
+                  {"poses", std::to_string(trajectory.size())},
                   {"images tracked", std::to_string(system.images_seen())},
                   {"wall time", Text("%.1f s", record.wall_seconds)},
                   {"processor time", Text("%.1f s", record.cpu_seconds)},

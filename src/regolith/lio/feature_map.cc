@@ -7,15 +7,12 @@
 
 #include "regolith/cloud/plane_fit.h"
 #include "regolith/core/check.h"
+#include "regolith/registration/robust_scale.h"
 
 namespace regolith {
 namespace {
 
 constexpr size_t kChunkSize = 64;
-// Distances beyond a few standard deviations lose their weight.
-constexpr double kKernelSigmas = 3.0;
-// m; an error of rotation weighs as the way of a point this far off.
-constexpr double kTypicalRange = 10.0;
 
 /// Voxels as wide as the search, with points as far apart as asked for on a surface.
 VoxelMapOptions MapOptions(double voxel_size, double spacing, double radius) {
@@ -155,9 +152,8 @@ MapMatch FeatureMap::Match(const FeatureCloud& cloud_lidar, const SE3& T_map_lid
                          options_.min_eigenvalue, &match.degenerate_directions);
     match.T_map_lidar =
         MinimizeDistances(matches, before, subspace, kernel, options_.steps_per_search);
-    const Vector6d change = Minus(match.T_map_lidar, before);
-    if (change.head<3>().norm() < options_.rotation_tolerance &&
-        change.tail<3>().norm() < options_.position_tolerance) {
+    if (HasConverged(before, match.T_map_lidar, options_.rotation_tolerance,
+                     options_.position_tolerance)) {
       break;
     }
   }

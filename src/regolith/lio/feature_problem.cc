@@ -4,18 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "regolith/core/check.h"
 #include "regolith/geometry/so3.h"
+#include "regolith/registration/robust_scale.h"
 
 namespace regolith {
 namespace {
 
-// Makes the median of |r| a standard deviation for Gaussian r.
-constexpr double kMedianToSigma = 1.4826;
 // Levenberg–Marquardt: damping at the start, and what a step that fails or succeeds does to it.
 constexpr double kFirstDamping = 1e-3;
 constexpr double kDampingUp = 10.0;
@@ -108,10 +108,7 @@ double RobustScale(const FeatureMatches& matches, const SE3& T_target_source, do
     distances.push_back(
         std::abs(OffPlane(matches.planes[i], T_target_source * matches.planars[i])));
   }
-  if (distances.empty()) return floor;
-  const auto middle = distances.begin() + static_cast<ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return std::max(floor, kMedianToSigma * *middle);
+  return RobustScale(std::move(distances), floor);
 }
 
 FeatureSystem Linearize(const FeatureMatches& matches, const SE3& T_target_source, double kernel) {

@@ -41,13 +41,16 @@ struct FeatureSystem {
   double inliers = 0.0;  ///< sum of the robust weights
 };
 
-/// Robust standard deviation of the matches' distances, m: 1.4826 · median, at least `floor`.
+/// Robust standard deviation of the matches' distances, m, at least `floor`.
 double RobustScale(const FeatureMatches& matches, const SE3& T_target_source, double floor);
 
 /// Linearises the distances of edges from their lines and planars from their planes (Zhang & Singh
 /// 2014, eq. 2 and 3), with Geman–McClure weights of width `kernel` (m). All distances count the
 /// same: the system is in m², not divided by a variance.
 FeatureSystem Linearize(const FeatureMatches& matches, const SE3& T_target_source, double kernel);
+
+/// m; an error of rotation weighs as the way of a point this far off.
+inline constexpr double kTypicalRange = 10.0;
 
 /// A subspace of small motions in which a pose may move, as the orthogonal projection onto it.
 /// Rotations are measured by the way of a point at the distance `length` (m), so that both halves

@@ -105,19 +105,21 @@ RigCalibration Rig(bool with_imu) {
   return rig;
 }
 
+void Append(std::vector<ScanEstimate> more, std::vector<ScanEstimate>* estimates) {
+  for (ScanEstimate& estimate : more) estimates->push_back(std::move(estimate));
+}
+
 std::vector<ScanEstimate> Drive(LidarOdometry& odometry, double seconds, bool walls = false,
                                 double imu_from = 0.0, double imu_gap_from = 1e9,
                                 double imu_gap_to = 1e9) {
   std::vector<ScanEstimate> estimates;
-  const auto keep = [&](std::vector<ScanEstimate> more) {
-    for (ScanEstimate& estimate : more) estimates.push_back(std::move(estimate));
-  };
   for (int i = 0; i * 0.005 < seconds; ++i) {
     const double t = i * 0.005;
-    if (t >= imu_from && !(t > imu_gap_from && t < imu_gap_to)) keep(odometry.AddImu(ImuAt(t)));
-    if (i % 20 == 0) keep(odometry.AddScan(ScanAt(i / 20, walls)));
+    if (t >= imu_from && !(t > imu_gap_from && t < imu_gap_to))
+      Append(odometry.AddImu(ImuAt(t)), &estimates);
+    if (i % 20 == 0) Append(odometry.AddScan(ScanAt(i / 20, walls)), &estimates);
   }
-  keep(odometry.Finish());
+  Append(odometry.Finish(), &estimates);
   return estimates;
 }
 
@@ -188,9 +190,9 @@ TEST(LidarOdometry, EmptyScansAreBridgedByTheImu) {
     if (i % 20 != 0) continue;
     LidarScan scan;
     scan.stamp = FromSeconds(i * 0.005);
-    for (ScanEstimate& estimate : odometry.AddScan(scan)) estimates.push_back(std::move(estimate));
+    Append(odometry.AddScan(scan), &estimates);
   }
-  for (ScanEstimate& estimate : odometry.Finish()) estimates.push_back(std::move(estimate));
+  Append(odometry.Finish(), &estimates);
   ASSERT_FALSE(estimates.empty());
   EXPECT_EQ(estimates.back().leader, "imu");
   EXPECT_LT(WorstError(estimates), 0.05);
@@ -229,25 +231,22 @@ std::vector<ScanEstimate> DriveWith(LidarOdometry& odometry, double seconds,
                                     const std::function<void(int, LidarScan*)>& tamper,
                                     double slip = 0.0) {
   std::vector<ScanEstimate> estimates;
-  const auto keep = [&](std::vector<ScanEstimate> more) {
-    for (ScanEstimate& estimate : more) estimates.push_back(std::move(estimate));
-  };
   for (int i = 0; i * 0.005 < seconds; ++i) {
     const double t = i * 0.005;
-    keep(odometry.AddImu(ImuAt(t)));
+    Append(odometry.AddImu(ImuAt(t)), &estimates);
     if (i % 4 == 0) {
       const SE3 step = BodyAt(t - 1e-3).Inverse() * BodyAt(t + 1e-3);
       WheelOdometry wheels;
       wheels.time = FromSeconds(t);
       wheels.linear_velocity_base.x() = (1.0 + slip) * step.translation.x() / 2e-3;
-      keep(odometry.AddWheels(wheels));
+      Append(odometry.AddWheels(wheels), &estimates);
     }
     if (i % 20 != 0) continue;
     LidarScan scan = ScanAt(i / 20, false);
     tamper(i / 20, &scan);
-    keep(odometry.AddScan(scan));
+    Append(odometry.AddScan(scan), &estimates);
   }
-  keep(odometry.Finish());
+  Append(odometry.Finish(), &estimates);
   return estimates;
 }
 
@@ -378,21 +377,18 @@ TEST(LidarOdometry, WheelsAreTheGuessWithoutAnImu) {
   options.wheels = true;
   LidarOdometry odometry(options, rig, &threads);
   std::vector<ScanEstimate> estimates;
-  const auto keep = [&](std::vector<ScanEstimate> more) {
-    for (ScanEstimate& estimate : more) estimates.push_back(std::move(estimate));
-  };
   for (int i = 0; i < 500; ++i) {
     WheelOdometry wheels;
     wheels.time = FromSeconds(i * 0.02);
     wheels.T_odom_base = BodyAt(i * 0.02);
-    keep(odometry.AddWheels(wheels));
+    Append(odometry.AddWheels(wheels), &estimates);
     if (i % 5 != 0) continue;
     LidarScan scan = ScanAt(i / 5, true);
     // For half a second there is nothing but the wheels.
     if (i > 300 && i < 325) scan.points.clear();
-    keep(odometry.AddScan(scan));
+    Append(odometry.AddScan(scan), &estimates);
   }
-  keep(odometry.Finish());
+  Append(odometry.Finish(), &estimates);
   ASSERT_EQ(estimates.size(), 100U);
   EXPECT_LT(WorstError(estimates), 0.10);
 }

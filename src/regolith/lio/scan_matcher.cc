@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "regolith/core/check.h"
+#include "regolith/registration/robust_scale.h"
 
 namespace regolith {
 
@@ -43,9 +44,8 @@ ScanMatch MatchScan(Span<const Eigen::Vector3d> points_body, const SE3& prior,
           match.observable.gradient + prior_information * Minus(match.T_map_body, prior);
       match.T_map_body = Plus(match.T_map_body, -information.ldlt().solve(gradient));
     }
-    const Vector6d change = Minus(match.T_map_body, before);
-    if (change.head<3>().norm() < options.rotation_tolerance &&
-        change.tail<3>().norm() < options.position_tolerance) {
+    if (HasConverged(before, match.T_map_body, options.rotation_tolerance,
+                     options.position_tolerance)) {
       break;
     }
   }

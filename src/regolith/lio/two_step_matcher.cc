@@ -3,15 +3,12 @@
 #include "regolith/lio/two_step_matcher.h"
 
 #include "regolith/core/check.h"
+#include "regolith/registration/robust_scale.h"
 
 namespace regolith {
 namespace {
 
 constexpr size_t kChunkSize = 64;
-// Distances beyond a few standard deviations lose their weight.
-constexpr double kKernelSigmas = 3.0;
-// m; an error of rotation weighs as the way of a point this far off.
-constexpr double kTypicalRange = 10.0;
 
 /// One of the two steps: its features, where they are looked for, and the motions it determines.
 struct Step {
@@ -66,9 +63,8 @@ bool Solve(const Step& step, const TwoStepMatcherOptions& options, ThreadPool* t
     const SE3 before = *T_last_current;
     *T_last_current =
         MinimizeDistances(matches, before, subspace, kernel, options.steps_per_search);
-    const Vector6d change = Minus(*T_last_current, before);
-    if (change.head<3>().norm() < options.rotation_tolerance &&
-        change.tail<3>().norm() < options.position_tolerance) {
+    if (HasConverged(before, *T_last_current, options.rotation_tolerance,
+                     options.position_tolerance)) {
       break;
     }
   }

@@ -10,6 +10,7 @@
 
 #include "regolith/cloud/plane_fit.h"
 #include "regolith/core/check.h"
+#include "regolith/registration/robust_scale.h"
 
 namespace regolith {
 namespace {
@@ -21,10 +22,6 @@ constexpr size_t kSumChunkSize = 512;
 constexpr double kWidthSigmas = 3.0;
 // rad; beyond it the small-angle model says nothing.
 constexpr double kMostNormalError = 1.0;
-// Makes the median of |r| a standard deviation for Gaussian r.
-constexpr double kMedianToSigma = 1.4826;
-// Residuals beyond a few standard deviations lose their weight.
-constexpr double kKernelSigmas = 3.0;
 
 bool IsPlane(const PlaneFit& plane, const PointToPlaneOptions& options) {
   const Eigen::Vector3d spread = plane.variances.cwiseSqrt();
@@ -61,13 +58,6 @@ PlaneMatch FindPlane(const Eigen::Vector3d& point_map, Span<const VoxelMap> maps
     break;
   }
   return match;
-}
-
-double RobustScale(std::vector<double> magnitudes, double floor) {
-  if (magnitudes.empty()) return floor;
-  const auto middle = magnitudes.begin() + static_cast<ptrdiff_t>(magnitudes.size() / 2);
-  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
-  return std::max(floor, kMedianToSigma * *middle);
 }
 
 // d r / d rotation = nᵀ d(R Exp(φ) p) = (p × Rᵀ n)ᵀ.
