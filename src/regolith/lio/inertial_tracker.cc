@@ -53,6 +53,11 @@ void InertialTracker::TryToStart(bool all) {
   if (span < options_.initialization_window && !all) return;
   const double rate = static_cast<double>(samples_.size() - 1) / span;
   if (rate < options_.min_imu_rate) {
+    if (!options_.lidar) {
+      throw InputError(rig_.imu->topic,
+                       Concatenate("comes at ", rate, " Hz, expected at least ",
+                                   options_.min_imu_rate, "; set lio.lidar=true to go without it"));
+    }
     state_ = State::kUnusable;
     start_notice_ = Concatenate("the IMU comes at ", rate, " Hz, below ", options_.min_imu_rate,
                                 " Hz: it is not used, and the world is not level");

@@ -213,6 +213,17 @@ TEST(LidarOdometry, ASlowImuIsReportedAndNotUsed) {
   EXPECT_NE(odometry.Notices()[0].find("10 Hz"), std::string::npos) << odometry.Notices()[0];
 }
 
+TEST(LidarOdometry, WithoutTheLidarASlowImuIsRefused) {
+  ThreadPool threads(1);
+  LidarOdometryOptions options;
+  options.lidar = false;
+  LidarOdometry odometry(options, Rig(true), &threads);
+  const auto feed = [&] {
+    for (int i = 0; i < 20; ++i) odometry.AddImu(ImuAt(0.1 * i));
+  };
+  EXPECT_THROW(feed(), InputError);
+}
+
 TEST(LidarOdometry, SamplesInUnitsOfGAreRefused) {
   ThreadPool threads(1);
   LidarOdometry odometry({}, Rig(true), &threads);
@@ -305,6 +316,7 @@ TEST(LidarOdometry, AWrongTimeOffsetCostsLittle) {
   LidarOdometry odometry({}, Rig(true), &threads);
   const auto estimates = DriveWith(
       odometry, 8.0, [](int, LidarScan* scan) { scan->stamp = AddSeconds(scan->stamp, 0.02); });
+  ASSERT_EQ(estimates.size(), 80U);
   // The pose is that of the lidar 0.02 s before the stamp, at up to 1 m/s.
   EXPECT_LT(WorstError(estimates), 0.10);
 }
@@ -347,6 +359,7 @@ TEST(LidarOdometry, OnAPlaneItSaysWhatItDoesNotKnow) {
   LidarOdometry with_wheels(options, rig, &threads);
   const double slip = 0.03;
   const auto helped = DriveWith(with_wheels, 10.0, flatten, slip);
+  ASSERT_EQ(helped.size(), 100U);
   // 5.5 m of way; the wheels' error is theirs, nothing is added to it.
   EXPECT_LT(WorstError(helped), 1.1 * slip * 5.5);
 }

@@ -15,12 +15,25 @@ const RigCalibration& WithLidar(const PipelineOptions& options, const RigCalibra
                    "needs a lidar, but the rig has none; add `lidar:` to the rig file");
 }
 
+/// Without the lidar everything hangs on the other two; where one is absent, what would be left is
+/// no such pipeline.
+void CheckInertialSensors(const PipelineOptions& options, const RigCalibration& rig) {
+  if (options.odometry != OdometryKind::kLio || options.lio.lidar) return;
+  const char* lacking = !rig.imu ? "imu" : options.lio.wheels && !rig.wheels ? "wheels" : nullptr;
+  if (lacking == nullptr) return;
+  throw InputError("pipeline " + options.name,
+                   Concatenate("does not use the lidar, and the rig has no ", lacking, "; add `",
+                               lacking, ":` to the rig file or set lio.lidar=true"));
+}
+
 SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
+  CheckInertialSensors(options, rig);
   SensorNeeds needs;
   const bool tracks = TracksImages(options, rig);
-  needs.imu = options.odometry == OdometryKind::kLio && options.lio.imu && rig.imu.has_value();
+  const bool is_lio = options.odometry == OdometryKind::kLio;
+  needs.imu = is_lio && options.lio.imu && rig.imu.has_value();
   needs.lidar = true;
-  needs.wheels = options.lio.wheels && rig.wheels.has_value();
+  needs.wheels = is_lio && options.lio.wheels && rig.wheels.has_value();
   if (tracks) needs.cameras.push_back(options.tracked_camera);
   return needs;
 }

@@ -47,6 +47,35 @@ TEST(SlamSystem, EveryScanGetsAPoseAndTheMapGrows) {
   EXPECT_GT(system.MapPoints().size(), 5000U);
 }
 
+TEST(SlamSystem, WithoutTheLidarTheOtherSensorsHaveToBeThere) {
+  PipelineOptions options;
+  options.name = "wheels";
+  options.lio.lidar = false;
+  options.lio.wheels = true;
+  RigCalibration rig;
+  rig.lidar.emplace();
+  ThreadPool threads(1);
+  EXPECT_THROW(SlamSystem(options, rig, &threads), InputError);
+  rig.imu.emplace();
+  EXPECT_THROW(SlamSystem(options, rig, &threads), InputError);
+  rig.wheels.emplace();
+  EXPECT_TRUE(SlamSystem(options, rig, &threads).needs().wheels);
+}
+
+TEST(SlamSystem, LegoLoamReadsTheLidarAlone) {
+  PipelineOptions options;
+  options.odometry = OdometryKind::kLegoLoam;
+  options.lio.wheels = true;
+  RigCalibration rig;
+  rig.lidar.emplace();
+  rig.imu.emplace();
+  rig.wheels.emplace();
+  ThreadPool threads(1);
+  const SlamSystem system(options, rig, &threads);
+  EXPECT_FALSE(system.needs().imu);
+  EXPECT_FALSE(system.needs().wheels);
+}
+
 RigCalibration RigWithCamera() {
   RigCalibration rig;
   rig.lidar.emplace();
