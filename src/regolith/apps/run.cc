@@ -115,8 +115,8 @@ std::string UnusedSensors(const RunSetup& setup, const SensorNeeds& needs) {
 
 void PrintResult(const RunArguments& arguments, const RunSetup& setup, const SlamSystem& system,
                  const RunRecord& record, const std::optional<Evaluation>& evaluation) {
-  std::printf("poses             %zu of %zu scans\n", system.trajectory().size(),
-              system.scans_seen());
+  std::printf("poses             %zu of %zu %s\n", system.trajectory().size(), system.stamps_seen(),
+              system.scans_seen() > 0 ? "scans" : "images");
   std::printf("distance          %.2f m\n", system.trajectory().Length());
   if (evaluation) {
     std::printf("APE RMSE          %.3f m (%.2f %% of the distance)\n", evaluation->ape.rmse,
@@ -144,7 +144,8 @@ int Run(const RunArguments& arguments) {
   read.lidar = system.needs().lidar;
   read.wheels = system.needs().wheels;
   read.cameras = system.needs().cameras;
-  read.skip_absent_cameras = true;  // the trajectory stands without them
+  // The trajectory stands without them, unless it is made of them.
+  read.skip_absent_cameras = setup.pipeline.odometry != OdometryKind::kVio;
   read.skip_absent_wheels = setup.pipeline.lio.lidar;
   read.cuts = setup.cuts;
   const auto source = OpenRecording(setup.identity, setup.rig, read);

@@ -81,6 +81,15 @@ std::string ImageCells(const FrontendStatus& status) {
   return buffer;
 }
 
+std::string VisualCells(const std::optional<VioEstimate>& visual) {
+  if (!visual) return ",,,,,,";
+  char buffer[120];
+  std::snprintf(buffer, sizeof buffer, ",%d,%d,%d,%.3f,%.4f,%.5f", visual->is_keyframe ? 1 : 0,
+                visual->landmarks, visual->outliers, visual->visual_cost, visual->slip,
+                visual->time_offset);
+  return buffer;
+}
+
 std::string StatusTable(const std::vector<FrameReport>& frames) {
   std::string text =
       "time_s,leader,at_rest,tracked_features,points,matches,inliers,residual_scale_m,"
@@ -88,11 +97,12 @@ std::string StatusTable(const std::vector<FrameReport>& frames) {
       "sigma_z_m,detected_features,recovered_features,rejected_features,new_features,mean_age,"
       "cells,"
       "cells_filled,threshold_rounds,threshold_min,threshold_median,threshold_max,weakest_ratio,"
-      "weakest_x,weakest_y,weakest_z\n";
+      "weakest_x,weakest_y,weakest_z,keyframe,landmarks,visual_outliers,visual_cost,slip,"
+      "time_offset_s\n";
   for (const FrameReport& frame : frames) {
     text += SecondsText(frame.stamp) + "," + frame.leader;
     text += frame.source == FrameSource::kScan ? ScanCells(frame) : ImageCells(frame.features);
-    text += "\n";
+    text += VisualCells(frame.visual) + "\n";
   }
   return text;
 }
@@ -117,10 +127,11 @@ nlohmann::ordered_json SummaryOf(const RunSetup& setup, const SlamSystem& system
   summary["keyframes"] = counts.keyframes;
   summary["loops_accepted"] = counts.loops_accepted;
   summary["loops_rejected"] = counts.loops_rejected;
-  summary["coverage"] = system.scans_seen() == 0 ? 0.0
-                                                 : static_cast<double>(system.trajectory().size()) /
-                                                       static_cast<double>(system.scans_seen());
-  summary["resets"] = 0;
+  summary["coverage"] = system.stamps_seen() == 0
+                            ? 0.0
+                            : static_cast<double>(system.trajectory().size()) /
+                                  static_cast<double>(system.stamps_seen());
+  summary["resets"] = system.resets();
   summary["distance_m"] = system.trajectory().Length();
   if (evaluation) {
     summary["ape_rmse_m"] = evaluation->ape.rmse;

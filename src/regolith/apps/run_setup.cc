@@ -119,6 +119,11 @@ RunSetup PrepareRun(const RunArguments& arguments) {
   setup.identity = IdentifyRecording(arguments.recording);
   setup.pipeline = ResolvePipeline(arguments);
   setup.rig = FindRig(setup.identity, arguments.rig, &setup.rig_source);
+  // A rig with a stereo pair alone: its left eye is the one camera.
+  std::string& camera = setup.pipeline.tracked_camera;
+  if (camera == "mono" && setup.rig.cameras.count("mono") == 0 && setup.rig.cameras.count("left")) {
+    camera = "left";
+  }
   PrepareTracking(arguments, &setup);
   for (const std::string& drop : arguments.drops) setup.cuts.push_back(ParseDrop(drop));
   const bool kitti = setup.identity.format == RecordingFormat::kKittiRaw ||

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/config/pipeline_config.h"
 
+#include <array>
+#include <utility>
+
 #include "regolith/config/features_fields_internal.h"
 #include "regolith/config/lego_loam_fields_internal.h"
 #include "regolith/core/error.h"
@@ -125,14 +128,79 @@ void Fields(Archive& archive, MapBuilderOptions& map) {
 }
 
 template <typename Archive>
+void Fields(Archive& archive, VioWheelOptions& wheel) {
+  archive("slip_sigma", wheel.slip_sigma);
+  archive("slip_walk", wheel.slip_walk);
+  archive("along_share", wheel.along_share);
+  archive("lateral_share", wheel.lateral_share);
+  archive("vertical_share", wheel.vertical_share);
+  archive("turn_share", wheel.turn_share);
+  archive("floor", wheel.floor);
+  archive("loss_scale", wheel.loss_scale);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, VioOptions& vio) {
+  archive("wheels", vio.wheels);
+  archive("stereo", vio.stereo);
+  archive("keyframes", vio.keyframes);
+  archive("max_landmarks", vio.max_landmarks);
+  archive("keyframe_iterations", vio.keyframe_iterations);
+  archive("frame_iterations", vio.frame_iterations);
+  archive("keyframe_parallax", vio.keyframe_parallax);
+  archive("keyframe_shared", vio.keyframe_shared);
+  archive("keyframe_turn", vio.keyframe_turn);
+  archive("pixel_sigma", vio.pixel_sigma);
+  archive("loss_scale", vio.loss_scale);
+  archive("outlier", vio.outlier);
+  archive("min_parallax", vio.min_parallax);
+  archive("expected_distance", vio.expected_distance);
+  archive("inverse_distance_sigma", vio.inverse_distance_sigma);
+  archive("noise_inflation", vio.noise_inflation);
+  archive("refine_extrinsics", vio.refine_extrinsics);
+  archive("extrinsics_rotation_sigma", vio.extrinsics_rotation_sigma);
+  archive("extrinsics_position_sigma", vio.extrinsics_position_sigma);
+  archive("refine_time_offset", vio.refine_time_offset);
+  archive("zero_velocity", vio.zero_velocity);
+  archive("rest_velocity_sigma", vio.rest_velocity_sigma);
+  archive("rest_position_sigma", vio.rest_position_sigma);
+  archive("rest_rotation_sigma", vio.rest_rotation_sigma);
+  archive("rest_pixels", vio.rest_pixels);
+  archive("rest_max_rate", vio.rest_max_rate);
+  archive("rest", vio.rest);
+  archive("rest_window", vio.rest_window);
+  archive("initialization_window", vio.initialization_window);
+  archive("moving_window", vio.moving_window);
+  archive("moving_velocity_sigma", vio.moving_velocity_sigma);
+  archive("moving_tilt_sigma", vio.moving_tilt_sigma);
+  archive("max_imu_gap", vio.max_imu_gap);
+  archive("min_features", vio.min_features);
+  archive("max_gyro_bias", vio.max_gyro_bias);
+  archive("max_accelerometer_bias", vio.max_accelerometer_bias);
+  archive("max_jump_speed", vio.max_jump_speed);
+  archive("wheel", vio.wheel);
+}
+
+constexpr std::array<std::pair<const char*, OdometryKind>, 3> kOdometryNames = {
+    {{"lio", OdometryKind::kLio},
+     {"lego_loam", OdometryKind::kLegoLoam},
+     {"vio", OdometryKind::kVio}}};
+
+template <typename Archive>
 void OdometryField(Archive& archive, OdometryKind& odometry) {
-  std::string name = odometry == OdometryKind::kLegoLoam ? "lego_loam" : "lio";
+  std::string name;
+  for (const auto& [known, kind] : kOdometryNames) {
+    if (kind == odometry) name = known;
+  }
   archive("odometry", name);
   if constexpr (Archive::kReading) {
-    if (name != "lio" && name != "lego_loam") {
-      archive.Fail("odometry", "`" + name + "`: expected lio or lego_loam");
+    for (const auto& [known, kind] : kOdometryNames) {
+      if (name == known) {
+        odometry = kind;
+        return;
+      }
     }
-    odometry = name == "lego_loam" ? OdometryKind::kLegoLoam : OdometryKind::kLio;
+    archive.Fail("odometry", "`" + name + "`: expected lio, lego_loam or vio");
   }
 }
 
@@ -144,6 +212,7 @@ void Fields(Archive& archive, PipelineOptions& options) {
   OdometryField(archive, options.odometry);
   archive("lio", options.lio);
   archive("lego_loam", options.lego_loam);
+  archive("vio", options.vio);
   archive("map", options.map);
 }
 
@@ -156,6 +225,7 @@ PipelineOptions LoadPipeline(const YamlDocument& document) {
     options.features.Check();
     options.lio.Check();
     options.lego_loam.Check();
+    options.vio.Check();
     options.map.Check();
   } catch (const CheckError& error) {
     throw InputError(document.name(), error.what());

@@ -10,13 +10,15 @@
 #include "regolith/lio/lego_loam_options.h"
 #include "regolith/lio/lidar_odometry_options.h"
 #include "regolith/system/map_builder.h"
+#include "regolith/vio/vio_options.h"
 
 namespace regolith {
 
-/// What makes a pose of each scan.
+/// What makes a pose of each scan, or, without a lidar, of each image.
 enum class OdometryKind {
   kLio,       ///< LidarOdometry
   kLegoLoam,  ///< LegoLoam
+  kVio,       ///< VisualInertialOdometry: no lidar
 };
 
 /// One pipeline: which subsystems run, and how.
@@ -27,6 +29,7 @@ struct PipelineOptions {
   OdometryKind odometry = OdometryKind::kLio;
   LidarOdometryOptions lio;
   LegoLoamOptions lego_loam;
+  VioOptions vio;
   MapBuilderOptions map;
 
   /// Of the network that `features` names, where it names one. No setting: the program finds it.

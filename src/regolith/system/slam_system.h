@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "regolith/system/image_tracker.h"
 #include "regolith/system/map_builder.h"
 #include "regolith/system/pipeline_options.h"
+#include "regolith/vio/visual_inertial_odometry.h"
 
 namespace regolith {
 
@@ -49,7 +51,8 @@ struct FrameReport {
   Eigen::Vector3d weakest_position = Eigen::Vector3d::Zero();
   Matrix6d covariance = Matrix6d::Zero();  ///< [rotation (right, rad), position (m)]
 
-  FrontendStatus features;  ///< of an image
+  FrontendStatus features;            ///< of an image
+  std::optional<VioEstimate> visual;  ///< of an image that visual–inertial odometry has worked off
 };
 
 /// Whether a pipeline tracks images of this rig: it names a camera that is there.
@@ -74,22 +77,37 @@ class SlamSystem {
   /// Poses of the body as first put out, at each frame's stamp.
   const Trajectory& odometry() const { return odometry_; }
   /// The best poses known now.
-  Trajectory trajectory() const { return scan_odometry_->Refined().value_or(odometry_); }
+  Trajectory trajectory() const;
   /// The map as it lies with the best poses known now.
   std::vector<MapPoint> MapPoints() const;
 
   size_t scans_seen() const { return scans_seen_; }
   size_t images_seen() const { return images_seen_; }
-  KeyframeCounts keyframe_counts() const { return scan_odometry_->Counts(); }
-  std::vector<std::string> Notices() const { return scan_odometry_->Notices(); }
+  /// Stamps at which a pose is expected: scans, or images where no scan came.
+  size_t stamps_seen() const { return scans_seen_ > 0 ? scans_seen_ : images_seen_; }
+  /// New starts of an odometry that had lost its way.
+  size_t resets() const { return visual_ ? visual_->resets() : 0; }
+  KeyframeCounts keyframe_counts() const;
+  std::vector<std::string> Notices() const;
 
  private:
   std::vector<FrameReport> Report(std::vector<ScanEstimate> estimates);
-  FrameReport Track(const CameraFrame& frame);
+  std::vector<FrameReport> Report(std::vector<VioEstimate> estimates);
+  std::vector<FrameReport> Track(const CameraFrame& frame);
+  void KeepVisualPoses(const std::vector<VioEstimate>& estimates);
+
+  /// What a pose of visual odometry goes with: a frame of its window's history.
+  struct VisualAnchor {
+    size_t frame = 0;
+    SE3 T_frame_body;
+  };
 
   SensorNeeds needs_;
-  std::unique_ptr<ScanOdometry> scan_odometry_;
-  std::unique_ptr<ImageTracker> tracker_;  ///< null where no images are tracked
+  std::unique_ptr<ScanOdometry> scan_odometry_;     ///< null without a lidar's part
+  std::unique_ptr<VisualInertialOdometry> visual_;  ///< null without a camera's part
+  std::vector<VisualAnchor> anchors_;               ///< of the poses of `odometry_`
+  std::deque<FrameReport> tracked_;                 ///< images that wait for their estimate
+  std::unique_ptr<ImageTracker> tracker_;           ///< null where no images are tracked
   MapBuilder map_;
   Trajectory odometry_;
   size_t scans_seen_ = 0;
