@@ -35,7 +35,12 @@ foreach(library rosbag_storage roscpp_serialization rostime cpp_common roslz4 co
   target_link_libraries(regolith_rosbag INTERFACE ${REGOLITH_LIBRARY_${library}})
 endforeach()
 
-# Debian's libraries that pass Eigen objects (Ceres) were compiled without AVX: 16 bytes of alignment, so ours too.
+# Debian's Ceres was compiled without AVX: its Eigen aligns to 16 bytes, ours to 32. The shared library keeps its own Eigen
+# to itself; the static one, which the CMake package names, would share inline functions with ours.
+find_library(REGOLITH_CERES_SHARED ceres REQUIRED)
+set_target_properties(Ceres::ceres PROPERTIES IMPORTED_LOCATION_RELEASE ${REGOLITH_CERES_SHARED})
+
+# Objects with Eigen members on the stack pass through Ceres too: 16 bytes of alignment there.
 add_library(regolith_eigen INTERFACE)
 target_link_libraries(regolith_eigen INTERFACE Eigen3::Eigen)
 target_compile_definitions(regolith_eigen INTERFACE EIGEN_MAX_ALIGN_BYTES=16)

@@ -22,6 +22,10 @@ constexpr size_t kMinLandmarks = 15;
 constexpr double kMaxError = 0.02;     // rad, median
 constexpr double kMinParallax = 0.02;  // rad, median
 constexpr double kMaxSpeed = 20.0;     // m/s
+/// What little is known of the speed at both ends of the window, against errors of bearings: where
+/// bearings change little, it keeps landmarks from being far and fast.
+constexpr double kSpeedSigma = 2.0;      // m/s, an axis
+constexpr double kBearingSigma = 0.002;  // rad
 
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 using Matrix6x3 = Eigen::Matrix<double, 6, 3>;
@@ -103,8 +107,9 @@ double SumOfErrors(const std::vector<TurnedPair>& pairs, const Eigen::Vector3d& 
 
 /// Everything that the closed form needs of one frame, in the first frame's IMU axes.
 struct InertialView {
-  double time = 0.0;      ///< s since the first frame
-  Eigen::Vector3d moved;  ///< camera, without velocity and gravity
+  double time = 0.0;       ///< s since the first frame
+  Eigen::Vector3d gained;  ///< velocity, without gravity
+  Eigen::Vector3d moved;   ///< camera, without velocity and gravity
   Eigen::Quaterniond R_first_camera;
 };
 
@@ -196,6 +201,7 @@ class ClosedForm {
       information -= equations.coupling.transpose() * inverse.solve(equations.coupling);
       right -= equations.coupling.transpose() * inverse.solve(equations.right);
     }
+    AddSpeedPrior(&information, &right);
     if (!SolveMotion(information, right)) return false;
     for (size_t i = 0; i < landmarks_.size(); ++i) {
       const LandmarkEquations equations = EquationsOf(i);
@@ -204,6 +210,16 @@ class ClosedForm {
       distances_[i] = std::max((points_[i] - CameraAt(landmarks_[i].front().first)).norm(), 0.1);
     }
     return solution_.allFinite();
+  }
+
+  /// The first velocity is v, the last one v + t g + what was gained.
+  void AddSpeedPrior(Matrix6d* information, Vector6d* right) const {
+    const double weight = kBearingSigma * kBearingSigma / (kSpeedSigma * kSpeedSigma);
+    information->topLeftCorner<3, 3>().diagonal().array() += weight;
+    Eigen::Matrix<double, 3, 6> by_motion;
+    by_motion << Eigen::Matrix3d::Identity(), views_.back().time * Eigen::Matrix3d::Identity();
+    *information += weight * by_motion.transpose() * by_motion;
+    *right -= weight * by_motion.transpose() * views_.back().gained;
   }
 
   /// Velocity and gravity with gravity's magnitude: (S + λ I) g = r after the velocity is
@@ -315,11 +331,12 @@ std::optional<MotionStart> InitializeInMotion(Span<const BearingFrame> frames,
   if (frames.size() < 5 || samples.size() < 2) return std::nullopt;
   const auto gyro_bias = EstimateGyroBias(frames, samples, T_imu_camera);
   if (!gyro_bias) return std::nullopt;
-  std::vector<InertialView> views = {{0.0, T_imu_camera.translation, T_imu_camera.rotation}};
+  std::vector<InertialView> views = {
+      {0.0, Eigen::Vector3d::Zero(), T_imu_camera.translation, T_imu_camera.rotation}};
   for (size_t i = 1; i < frames.size(); ++i) {
     const ImuPreintegration motion =
         MotionBetween(samples, frames[0].time, frames[i].time, *gyro_bias);
-    views.push_back({motion.duration(),
+    views.push_back({motion.duration(), motion.delta_velocity(),
                      motion.delta_position() + motion.delta_rotation() * T_imu_camera.translation,
                      motion.delta_rotation() * T_imu_camera.rotation});
   }

@@ -36,7 +36,7 @@ struct VioOptions {
   double outlier = 4.0;            ///< standard deviations; beyond, a sighting is left out
   double min_parallax = 0.01;      ///< rad, of a landmark that is triangulated
   double expected_distance = 4.0;  ///< m, of landmarks without parallax
-  double inverse_distance_sigma = 0.5;  ///< 1/m, of that guess
+  double inverse_distance_sigma = 5.0;  ///< 1/m, of that guess: hardly any, since many guesses
   double noise_inflation = 3.0;         ///< of the IMU's white noise: vibration is in no data sheet
   bool refine_extrinsics = false;       ///< T_imu_camera is estimated
   double extrinsics_rotation_sigma = 0.02;  ///< rad, of the rig's, where it is estimated

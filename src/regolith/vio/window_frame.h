@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <ceres/cost_function.h>
-#include <ceres/loss_function.h>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -15,6 +13,11 @@
 #include "regolith/imu/preintegration.h"
 #include "regolith/sensor/imu_sample.h"
 #include "regolith/vio/wheel_way.h"
+
+namespace ceres {
+class CostFunction;
+class LossFunction;
+}  // namespace ceres
 
 namespace regolith {
 
