@@ -24,10 +24,12 @@ class ReprojectionFactor final
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
     const SE3 T_imu_camera = FromPoseBlock(blocks[2]);
     const double time_offset = blocks[4][0];
+    // A pose is that of its frame's time. Where the offset has grown since, the image was taken later
+    // than that: at the pose's time the bearing was an earlier one.
     const Eigen::Vector3d source =
-        first_.bearing + (time_offset - first_.time_offset) * first_.bearing_rate;
+        first_.bearing - (time_offset - first_.time_offset) * first_.bearing_rate;
     const Eigen::Vector3d target =
-        second_.bearing + (time_offset - second_.time_offset) * second_.bearing_rate;
+        second_.bearing - (time_offset - second_.time_offset) * second_.bearing_rate;
     const RayTransfer transfer(FromPoseBlock(blocks[0]), FromPoseBlock(blocks[1]), T_imu_camera,
                                T_imu_camera, source, blocks[3][0], jacobians != nullptr);
     const BearingError error(transfer.ray_target, target, plane_, sigma_);
@@ -41,8 +43,8 @@ class ReprojectionFactor final
     }
     if (jacobians[4] != nullptr) {
       Eigen::Map<Eigen::Vector2d>(jacobians[4], 2) =
-          error.by_ray * transfer.by_bearing * first_.bearing_rate +
-          error.by_bearing * second_.bearing_rate;
+          -(error.by_ray * transfer.by_bearing * first_.bearing_rate +
+            error.by_bearing * second_.bearing_rate);
     }
     return true;
   }
