@@ -24,8 +24,8 @@ class ReprojectionFactor final
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
     const SE3 T_imu_camera = FromPoseBlock(blocks[2]);
     const double time_offset = blocks[4][0];
-    // A pose is that of its frame's time. Where the offset has grown since, the image was taken later
-    // than that: at the pose's time the bearing was an earlier one.
+    // A pose is that of its frame's time. Where the offset has grown since, the image was taken
+    // later than that: at the pose's time the bearing was an earlier one.
     const Eigen::Vector3d source =
         first_.bearing - (time_offset - first_.time_offset) * first_.bearing_rate;
     const Eigen::Vector3d target =
