@@ -70,13 +70,15 @@ std::string ScanCells(const FrameReport& frame) {
   return text + buffer;
 }
 
-std::string ImageCells(const FrontendStatus& status) {
+std::string ImageCells(const FrameReport& frame) {
+  const FrontendStatus& status = frame.features;
   const DetectionStatus& detection = status.detection;
   char buffer[240];
   std::snprintf(buffer, sizeof buffer,
-                ",,%d,,,,,,,,,,,,%d,%d,%d,%d,%.2f,%d,%d,%d,%.6g,%.6g,%.6g,,,,", status.tracked,
-                status.detected, status.recovered, status.rejected, status.started, status.mean_age,
-                detection.cells, detection.cells_filled, detection.rounds, detection.threshold_min,
+                ",%s,%d,,,,,,,,,,,,%d,%d,%d,%d,%.2f,%d,%d,%d,%.6g,%.6g,%.6g,,,,",
+                frame.visual ? (frame.at_rest ? "1" : "0") : "", status.tracked, status.detected,
+                status.recovered, status.rejected, status.started, status.mean_age, detection.cells,
+                detection.cells_filled, detection.rounds, detection.threshold_min,
                 detection.threshold_median, detection.threshold_max);
   return buffer;
 }
@@ -101,7 +103,7 @@ std::string StatusTable(const std::vector<FrameReport>& frames) {
       "time_offset_s\n";
   for (const FrameReport& frame : frames) {
     text += SecondsText(frame.stamp) + "," + frame.leader;
-    text += frame.source == FrameSource::kScan ? ScanCells(frame) : ImageCells(frame.features);
+    text += frame.source == FrameSource::kScan ? ScanCells(frame) : ImageCells(frame);
     text += VisualCells(frame.visual) + "\n";
   }
   return text;

@@ -119,9 +119,11 @@ RunSetup PrepareRun(const RunArguments& arguments) {
   setup.identity = IdentifyRecording(arguments.recording);
   setup.pipeline = ResolvePipeline(arguments);
   setup.rig = FindRig(setup.identity, arguments.rig, &setup.rig_source);
-  // A rig with a stereo pair alone: its left eye is the one camera.
+  // Of a stereo pair, or where the rig has nothing else, the left eye is the camera.
   std::string& camera = setup.pipeline.tracked_camera;
-  if (camera == "mono" && setup.rig.cameras.count("mono") == 0 && setup.rig.cameras.count("left")) {
+  const bool has_left = setup.rig.cameras.count("left") > 0;
+  if (camera == "mono" && has_left &&
+      (setup.pipeline.vio.stereo || setup.rig.cameras.count("mono") == 0)) {
     camera = "left";
   }
   PrepareTracking(arguments, &setup);

@@ -181,6 +181,20 @@ void Fields(Archive& archive, VioOptions& vio) {
   archive("wheel", vio.wheel);
 }
 
+template <typename Archive>
+void Fields(Archive& archive, LidarDepthOptions& depth) {
+  archive("seconds", depth.seconds);
+  archive("metres", depth.metres);
+  archive("max_range", depth.max_range);
+  archive("spacing", depth.spacing);
+  archive("search_angle", depth.search_angle);
+  archive("max_returns", depth.max_returns);
+  archive("max_thickness", depth.max_thickness);
+  archive("max_incidence", depth.max_incidence);
+  archive("depth_step", depth.depth_step);
+  archive("sigma", depth.sigma);
+}
+
 constexpr std::array<std::pair<const char*, OdometryKind>, 3> kOdometryNames = {
     {{"lio", OdometryKind::kLio},
      {"lego_loam", OdometryKind::kLegoLoam},
@@ -212,7 +226,10 @@ void Fields(Archive& archive, PipelineOptions& options) {
   OdometryField(archive, options.odometry);
   archive("lio", options.lio);
   archive("lego_loam", options.lego_loam);
+  archive("visual", options.visual);
   archive("vio", options.vio);
+  archive("lidar_depth", options.lidar_depth);
+  archive("visual_velocity_sigma", options.visual_velocity_sigma);
   archive("map", options.map);
 }
 
@@ -226,6 +243,7 @@ PipelineOptions LoadPipeline(const YamlDocument& document) {
     options.lio.Check();
     options.lego_loam.Check();
     options.vio.Check();
+    options.lidar_depth.Check();
     options.map.Check();
   } catch (const CheckError& error) {
     throw InputError(document.name(), error.what());

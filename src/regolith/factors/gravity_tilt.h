@@ -18,6 +18,11 @@ inline Eigen::Vector3d GravityFromTilt(const Eigen::Vector2d& tilt, double magni
   return ExpSo3({tilt.x(), tilt.y(), 0.0}) * Eigen::Vector3d(0.0, 0.0, -magnitude);
 }
 
+/// The tilt of a gravity vector (world) that is not far from straight down.
+inline Eigen::Vector2d TiltOfGravity(const Eigen::Vector3d& gravity_world) {
+  return LogSo3(RotationBetween(-Eigen::Vector3d::UnitZ(), gravity_world.normalized())).head<2>();
+}
+
 inline Eigen::Matrix<double, 3, 2> GravityTiltJacobian(const Eigen::Vector2d& tilt,
                                                        double magnitude) {
   const Eigen::Vector3d rotation(tilt.x(), tilt.y(), 0.0);

@@ -148,6 +148,15 @@ void InertialFilter::AbsorbWheels(const WheelOdometry& wheels, const SE3& T_imu_
   Absorb<3>(jacobian, wheels.linear_velocity_base - predicted, variances);
 }
 
+void InertialFilter::AbsorbVelocity(const Eigen::Vector3d& velocity_imu, double sigma) {
+  const Eigen::Matrix3d R_imu_world = state_.T_world_imu.rotation.conjugate().toRotationMatrix();
+  const Eigen::Vector3d predicted = R_imu_world * state_.v_world_imu;
+  Eigen::Matrix<double, 3, kSize> jacobian = Eigen::Matrix<double, 3, kSize>::Zero();
+  jacobian.block<3, 3>(0, kRotation) = Hat(predicted);
+  jacobian.block<3, 3>(0, kVelocity) = R_imu_world;
+  Absorb<3>(jacobian, velocity_imu - predicted, Eigen::Vector3d::Constant(sigma * sigma));
+}
+
 void InertialFilter::AbsorbRest(const ImuStatistics& samples) {
   // z = [v; mean rate - gyro bias] = 0.
   Eigen::Matrix<double, 6, kSize> jacobian = Eigen::Matrix<double, 6, kSize>::Zero();

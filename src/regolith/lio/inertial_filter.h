@@ -49,6 +49,9 @@ class InertialFilter {
   void AbsorbWheels(const WheelOdometry& wheels, const SE3& T_imu_base,
                     const Eigen::Vector3d& rate);
 
+  /// A velocity (m/s, IMU's frame) that another sensor tells; `sigma` of each axis.
+  void AbsorbVelocity(const Eigen::Vector3d& velocity_imu, double sigma);
+
   /// Zero velocity, and zero rotation so that the mean rate is the gyro's bias.
   void AbsorbRest(const ImuStatistics& samples);
 

@@ -86,6 +86,10 @@ void InertialTracker::Step(const ImuSample& from, const ImuSample& to) {
     if (wheels_.front().time <= from.time) continue;
     filter_->AbsorbWheels(wheels_.front(), rig_.wheels->T_imu_base, to.angular_velocity);
   }
+  for (; !velocities_.empty() && velocities_.front().time <= to.time; velocities_.pop_front()) {
+    if (velocities_.front().time <= from.time) continue;
+    filter_->AbsorbVelocity(velocities_.front().velocity_imu, velocities_.front().sigma);
+  }
 }
 
 std::vector<StampedPose> InertialTracker::PropagateTo(TimeNs end) {

@@ -10,6 +10,7 @@
 #include "regolith/geometry/trajectory.h"
 #include "regolith/lio/inertial_filter.h"
 #include "regolith/lio/lidar_odometry_options.h"
+#include "regolith/lio/scan_odometry.h"
 #include "regolith/sensor/imu_sample.h"
 #include "regolith/sensor/rig_calibration.h"
 #include "regolith/sensor/wheel_odometry.h"
@@ -25,6 +26,7 @@ class InertialTracker {
 
   void AddImu(const ImuSample& sample);
   void AddWheels(const WheelOdometry& odometry);
+  void AddVelocity(const BodyVelocity& velocity) { velocities_.push_back(velocity); }
 
   enum class State { kWaiting, kRunning, kUnusable };
   State state() const { return state_; }
@@ -65,6 +67,7 @@ class InertialTracker {
   std::vector<ImuSample> samples_;  ///< from a rest window before the filter's time on
   std::deque<Gap> gaps_;
   std::deque<WheelOdometry> wheels_;
+  std::deque<BodyVelocity> velocities_;
   std::optional<InertialFilter> filter_;
   TimeNs last_rest_ = 0;  ///< end of the last window of rest that was absorbed
   size_t gap_count_ = 0;

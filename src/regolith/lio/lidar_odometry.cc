@@ -84,6 +84,10 @@ std::vector<ScanEstimate> LidarOdometry::AddWheels(const WheelOdometry& odometry
   return EstimateReady(false);
 }
 
+void LidarOdometry::AddVelocity(const BodyVelocity& velocity) {
+  if (inertial_) inertial_->AddVelocity(velocity);
+}
+
 std::vector<ScanEstimate> LidarOdometry::AddScan(const LidarScan& scan) {
   waiting_.push_back(scan);
   std::vector<LidarPoint>& points = waiting_.back().points;
@@ -207,7 +211,7 @@ ScanEstimate LidarOdometry::EstimateInertial(const LidarScan& scan) {
   const SE3 corrected = filter.state().T_world_imu;
   estimate.T_world_body = corrected * (predicted.Inverse() * PoseAt(motion, scan.stamp));
   estimate.covariance = filter.PoseCovariance();
-  estimate.gyro_bias = filter.state().gyro_bias;
+  estimate.inertial = InertialState{filter.state(), filter.gravity_world()};
   estimate.leader = estimate.match.used_scan ? "lidar+imu" : wheels_came_ ? "wheels+imu" : "imu";
   AddDrift(corrected, &estimate);
   if (options_.lidar) {

@@ -34,6 +34,7 @@ class LidarOdometry : public ScanOdometry {
   /// units or the rig's gravity cannot be right.
   std::vector<ScanEstimate> AddImu(const ImuSample& sample) override;
   std::vector<ScanEstimate> AddWheels(const WheelOdometry& odometry) override;
+  void AddVelocity(const BodyVelocity& velocity) override;
   std::vector<ScanEstimate> AddScan(const LidarScan& scan) override;
   std::vector<ScanEstimate> Finish() override;
   std::vector<std::string> Notices() const override;

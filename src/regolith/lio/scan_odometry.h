@@ -8,6 +8,7 @@
 
 #include "regolith/cloud/map_point.h"
 #include "regolith/core/stopwatch.h"
+#include "regolith/geometry/nav_state.h"
 #include "regolith/geometry/trajectory.h"
 #include "regolith/lio/scan_matcher.h"
 #include "regolith/sensor/imu_sample.h"
@@ -16,6 +17,19 @@
 
 namespace regolith {
 
+/// Where a rover is and what its IMU does, as an inertial odometry knows it.
+struct InertialState {
+  NavState state;
+  Eigen::Vector3d gravity_world = Eigen::Vector3d::Zero();  ///< m/s²
+};
+
+/// A velocity that another sensor tells, such as a camera.
+struct BodyVelocity {
+  TimeNs time = 0;
+  Eigen::Vector3d velocity_imu = Eigen::Vector3d::Zero();  ///< m/s, IMU's frame
+  double sigma = 0.0;                                      ///< m/s, each axis
+};
+
 /// What an odometry says of one scan.
 struct ScanEstimate {
   TimeNs stamp = 0;
@@ -23,7 +37,7 @@ struct ScanEstimate {
   Matrix6d covariance = Matrix6d::Zero();  ///< of the pose at the scan's end
   std::string leader;                      ///< "lidar+imu", "imu", "lidar", "guess"
   bool at_rest = false;
-  std::optional<Eigen::Vector3d> gyro_bias;  ///< rad/s; nothing without an IMU
+  std::optional<InertialState> inertial;  ///< at the scan's end; nothing without an IMU
   ScanMatch match;
   std::vector<MapPoint> points;  ///< world, all of the scan without motion distortion
   std::vector<StageTime> stages;
@@ -44,6 +58,8 @@ class ScanOdometry {
 
   virtual std::vector<ScanEstimate> AddImu(const ImuSample& sample) = 0;
   virtual std::vector<ScanEstimate> AddWheels(const WheelOdometry& odometry) = 0;
+  /// Helps where the lidar does not tell; an odometry may leave it aside.
+  virtual void AddVelocity(const BodyVelocity& velocity) { (void)velocity; }
   virtual std::vector<ScanEstimate> AddScan(const LidarScan& scan) = 0;
 
   /// Estimates what still waits for measurements that never came.

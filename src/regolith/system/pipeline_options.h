@@ -10,6 +10,7 @@
 #include "regolith/lio/lego_loam_options.h"
 #include "regolith/lio/lidar_odometry_options.h"
 #include "regolith/system/map_builder.h"
+#include "regolith/vio/lidar_depth_options.h"
 #include "regolith/vio/vio_options.h"
 
 namespace regolith {
@@ -29,7 +30,12 @@ struct PipelineOptions {
   OdometryKind odometry = OdometryKind::kLio;
   LidarOdometryOptions lio;
   LegoLoamOptions lego_loam;
+  /// Visual–inertial odometry beside the lidar's (kLio): each helps the other.
+  bool visual = false;
   VioOptions vio;
+  LidarDepthOptions lidar_depth;
+  /// m/s, 1 σ of a velocity that visual odometry tells the lidar's; 0: it does not tell.
+  double visual_velocity_sigma = 0.05;
   MapBuilderOptions map;
 
   /// Of the network that `features` names, where it names one. No setting: the program finds it.

@@ -2,12 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/system/slam_system.h"
 
+#include <cmath>
+#include <utility>
+
 #include "regolith/core/error.h"
 #include "regolith/lio/lego_loam.h"
 #include "regolith/lio/lidar_odometry.h"
 
 namespace regolith {
 namespace {
+
+constexpr double kLeastBaseline = 0.01;  // m
+/// s, by which the two images of a pair may differ.
+constexpr double kPairTime = 0.005;
+/// s, that the camera's part waits for a first state of the lidar's.
+constexpr double kStartWait = 3.0;
 
 void CheckLidar(const PipelineOptions& options, const RigCalibration& rig) {
   if (rig.lidar) return;
@@ -26,6 +35,25 @@ void CheckInertialSensors(const PipelineOptions& options, const RigCalibration& 
                                lacking, ":` to the rig file or set lio.lidar=true"));
 }
 
+/// The other eye of the tracked camera; a pair without a baseline is none.
+std::string RightCamera(const PipelineOptions& options, const RigCalibration& rig) {
+  const auto left = rig.cameras.find(options.tracked_camera);
+  const auto right = rig.cameras.find("right");
+  if (left == rig.cameras.end() || right == rig.cameras.end() || left->first != "left") {
+    throw InputError("vio.stereo",
+                     "needs the cameras `left` and `right` in the rig and `tracked_camera: left`; "
+                     "leave it out for one camera");
+  }
+  const double baseline =
+      (left->second.T_imu_camera.translation - right->second.T_imu_camera.translation).norm();
+  if (baseline < kLeastBaseline) {
+    throw InputError("vio.stereo", Concatenate("the rig's cameras `left` and `right` are ",
+                                               baseline, " m apart, expected at least ",
+                                               kLeastBaseline, "; check their T_imu_camera"));
+  }
+  return right->first;
+}
+
 /// Visual–inertial odometry needs both of its sensors; the lidar's stamps say when poses are
 /// wanted.
 SensorNeeds VisualNeeds(const PipelineOptions& options, const RigCalibration& rig) {
@@ -42,6 +70,7 @@ SensorNeeds VisualNeeds(const PipelineOptions& options, const RigCalibration& ri
   needs.lidar = rig.lidar.has_value();
   needs.wheels = options.vio.wheels && rig.wheels.has_value();
   needs.cameras.push_back(options.tracked_camera);
+  if (options.vio.stereo) needs.cameras.push_back(RightCamera(options, rig));
   return needs;
 }
 
@@ -55,6 +84,9 @@ SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
   needs.lidar = true;
   needs.wheels = is_lio && options.lio.wheels && rig.wheels.has_value();
   if (tracks) needs.cameras.push_back(options.tracked_camera);
+  if (tracks && options.visual && options.vio.stereo) {
+    needs.cameras.push_back(RightCamera(options, rig));
+  }
   return needs;
 }
 
@@ -96,55 +128,86 @@ SlamSystem::SlamSystem(const PipelineOptions& options, const RigCalibration& rig
                        ThreadPool* threads, std::optional<Image> camera_mask)
     : needs_(NeedsOf(options, rig)),
       scan_odometry_(MakeScanOdometry(options, rig, threads)),
+      visual_velocity_sigma_(options.visual_velocity_sigma),
       map_(options.map) {
   if (!needs_.cameras.empty()) {
     tracker_ = std::make_unique<ImageTracker>(options, rig, std::move(camera_mask));
   }
-  if (options.odometry == OdometryKind::kVio) {
-    visual_ =
-        std::make_unique<VisualInertialOdometry>(options.vio, rig, options.tracked_camera, "");
+  const bool is_visual = options.odometry == OdometryKind::kVio;
+  // Beside the lidar's part the camera's needs an IMU and images; without them the other goes
+  // alone.
+  if (!is_visual && !(options.visual && tracker_ && rig.imu)) return;
+  if (options.vio.stereo) {
+    right_camera_ = RightCamera(options, rig);
+    const CameraCalibration& left = rig.cameras.at(options.tracked_camera);
+    const CameraCalibration& right = rig.cameras.at(right_camera_);
+    stereo_ = std::make_unique<StereoMatcher>(options.features.optical_flow, right.intrinsics,
+                                              left.T_imu_camera.Inverse() * right.T_imu_camera);
   }
+  visual_ = std::make_unique<VisualInertialOdometry>(options.vio, rig, options.tracked_camera,
+                                                     right_camera_);
+  if (is_visual) return;
+  visual_->ExpectStart(kStartWait);
+  distances_ = std::make_unique<LidarDistances>(options.lidar_depth, rig.lidar->T_imu_lidar);
+  visual_->SetDistanceSource(distances_.get());
 }
 
 std::vector<FrameReport> SlamSystem::Process(const SensorEvent& event) {
+  std::vector<FrameReport> reports;
+  const auto take = [&reports](std::vector<FrameReport> more) {
+    for (FrameReport& report : more) reports.push_back(std::move(report));
+  };
   if (const auto* sample = std::get_if<ImuSample>(&event)) {
     if (tracker_) tracker_->AddImu(*sample);
-    return visual_ ? Report(visual_->AddImu(*sample)) : Report(scan_odometry_->AddImu(*sample));
-  }
-  if (const auto* wheels = std::get_if<WheelOdometry>(&event)) {
-    if (!visual_) return Report(scan_odometry_->AddWheels(*wheels));
-    visual_->AddWheels(*wheels);
-    return {};
-  }
-  if (const auto* frame = std::get_if<CameraFrame>(&event)) {
-    if (!tracker_ || frame->camera != tracker_->camera()) return {};
-    return Track(*frame);
-  }
-  if (const auto* scan = std::get_if<LidarScan>(&event)) {
+    if (visual_) take(Report(visual_->AddImu(*sample)));
+    if (scan_odometry_) take(Report(scan_odometry_->AddImu(*sample)));
+  } else if (const auto* wheels = std::get_if<WheelOdometry>(&event)) {
+    if (visual_) visual_->AddWheels(*wheels);
+    if (scan_odometry_) take(Report(scan_odometry_->AddWheels(*wheels)));
+  } else if (const auto* frame = std::get_if<CameraFrame>(&event)) {
+    if (stereo_) {
+      take(TrackPair(*frame));
+    } else if (tracker_ && frame->camera == tracker_->camera()) {
+      take(Track(*frame));
+    }
+  } else if (const auto* scan = std::get_if<LidarScan>(&event)) {
     ++scans_seen_;
-    if (!visual_) return Report(scan_odometry_->AddScan(*scan));
-    visual_->AddStamp(scan->stamp);
+    if (visual_) visual_->AddStamp(scan->stamp);
+    if (scan_odometry_) take(Report(scan_odometry_->AddScan(*scan)));
   }
-  return {};
+  return reports;
 }
 
 std::vector<FrameReport> SlamSystem::Finish() {
-  return visual_ ? Report(visual_->Finish()) : Report(scan_odometry_->Finish());
+  std::vector<FrameReport> reports;
+  if (visual_) reports = Report(visual_->Finish());
+  if (!scan_odometry_) return reports;
+  for (FrameReport& report : Report(scan_odometry_->Finish())) reports.push_back(std::move(report));
+  return reports;
 }
 
 KeyframeCounts SlamSystem::keyframe_counts() const {
-  if (!visual_) return scan_odometry_->Counts();
+  if (scan_odometry_) return scan_odometry_->Counts();
   KeyframeCounts counts;
   counts.keyframes = visual_->keyframes();
   return counts;
 }
 
 std::vector<std::string> SlamSystem::Notices() const {
-  return visual_ ? visual_->Notices() : scan_odometry_->Notices();
+  std::vector<std::string> notices;
+  if (scan_odometry_) notices = scan_odometry_->Notices();
+  if (!visual_) return notices;
+  for (std::string& notice : visual_->Notices()) notices.push_back(std::move(notice));
+  if (pairs_missed_ > 0) {
+    notices.push_back(Concatenate(pairs_missed_,
+                                  " images of the left camera had no right one within ", kPairTime,
+                                  " s: they went alone; check the stereo pair's stamps"));
+  }
+  return notices;
 }
 
 Trajectory SlamSystem::trajectory() const {
-  if (!visual_) return scan_odometry_->Refined().value_or(odometry_);
+  if (scan_odometry_) return scan_odometry_->Refined().value_or(odometry_);
   const FrameHistory history = visual_->window().History();
   Trajectory refined;
   for (size_t i = 0; i < odometry_.size(); ++i) {
@@ -163,9 +226,28 @@ std::vector<FrameReport> SlamSystem::Report(std::vector<ScanEstimate> estimates)
     stopwatch.Lap("output_map");
     reports.push_back(ReportOf(estimate));
     for (const StageTime& stage : stopwatch.stages()) reports.back().stages.push_back(stage);
-    if (tracker_ && estimate.gyro_bias) tracker_->SetGyroBias(*estimate.gyro_bias);
+    TellScan(estimate);
   }
   return reports;
+}
+
+/// What the lidar's part knows helps the camera's.
+void SlamSystem::TellScan(const ScanEstimate& estimate) {
+  if (tracker_ && estimate.inertial) tracker_->SetGyroBias(estimate.inertial->state.gyro_bias);
+  if (!distances_) return;
+  distances_->AddScan(estimate);
+  if (estimate.inertial) {
+    visual_->SetStart(estimate.inertial->state, estimate.inertial->gravity_world);
+  }
+}
+
+/// And the other way round.
+void SlamSystem::TellVelocity(const VioEstimate& estimate) {
+  if (visual_velocity_sigma_ <= 0.0 || estimate.health != VioHealth::kGood) return;
+  const NavState& state = estimate.state;
+  scan_odometry_->AddVelocity({state.time,
+                               state.T_world_imu.rotation.conjugate() * state.v_world_imu,
+                               visual_velocity_sigma_});
 }
 
 /// At scans where there are any, else at images.
@@ -176,9 +258,13 @@ void SlamSystem::KeepVisualPoses(const std::vector<VioEstimate>& estimates) {
     anchors_.push_back(anchor);
   };
   for (const StampedState& stamped : visual_->TakeStamped()) {
-    keep(stamped.time, stamped.state, {stamped.frame, stamped.T_frame_imu});
+    if (distances_) {
+      distances_->AddVisual(stamped);
+    } else {
+      keep(stamped.time, stamped.state, {stamped.frame, stamped.T_frame_imu});
+    }
   }
-  if (scans_seen_ > 0) return;
+  if (scans_seen_ > 0 || distances_) return;
   for (const VioEstimate& estimate : estimates) {
     if (estimate.has_image) keep(estimate.state.time, estimate.state, {estimate.frame, SE3()});
   }
@@ -188,6 +274,7 @@ std::vector<FrameReport> SlamSystem::Report(std::vector<VioEstimate> estimates) 
   KeepVisualPoses(estimates);
   std::vector<FrameReport> reports;
   for (VioEstimate& estimate : estimates) {
+    if (distances_) TellVelocity(estimate);
     FrameReport report;
     // Images that were too near the one before have no estimate.
     while (estimate.has_image && !tracked_.empty() && tracked_.front().stamp <= estimate.stamp) {
@@ -204,7 +291,7 @@ std::vector<FrameReport> SlamSystem::Report(std::vector<VioEstimate> estimates) 
     report.visual = std::move(estimate);
     reports.push_back(std::move(report));
   }
-  if (!estimates.empty()) tracker_->SetGyroBias(visual_->gyro_bias());
+  if (!distances_ && !estimates.empty()) tracker_->SetGyroBias(visual_->gyro_bias());
   return reports;
 }
 
@@ -220,6 +307,29 @@ std::vector<MapPoint> SlamSystem::MapPoints() const {
   return map_.Moved(corrections);
 }
 
+/// An eye waits for the other; where that does not come, the left goes alone.
+std::vector<FrameReport> SlamSystem::TrackPair(const CameraFrame& frame) {
+  std::vector<FrameReport> reports;
+  if (frame.camera == right_camera_) {
+    waiting_right_ = frame;
+  } else if (frame.camera == tracker_->camera()) {
+    if (waiting_left_) {
+      ++pairs_missed_;
+      reports = Track(*std::exchange(waiting_left_, std::nullopt));
+    }
+    waiting_left_ = frame;
+  }
+  if (!waiting_left_ || !waiting_right_ ||
+      std::abs(SecondsBetween(waiting_left_->time, waiting_right_->time)) > kPairTime) {
+    return reports;
+  }
+  for (FrameReport& report : Track(*std::exchange(waiting_left_, std::nullopt))) {
+    reports.push_back(std::move(report));
+  }
+  waiting_right_.reset();
+  return reports;
+}
+
 std::vector<FrameReport> SlamSystem::Track(const CameraFrame& frame) {
   ++images_seen_;
   TrackedFrame tracked = tracker_->Track(frame.time, frame.image);
@@ -230,8 +340,16 @@ std::vector<FrameReport> SlamSystem::Track(const CameraFrame& frame) {
   report.features = tracked.status;
   report.stages = std::move(tracked.stages);
   if (!visual_) return {report};
+  VioFrame features{frame.time, std::move(tracked.features), {}};
+  if (stereo_ && waiting_right_ &&
+      std::abs(SecondsBetween(frame.time, waiting_right_->time)) <= kPairTime) {
+    Stopwatch stopwatch;
+    features.right_bearings = stereo_->Match(frame.image, waiting_right_->image, features.features);
+    stopwatch.Lap("features_stereo");
+    for (const StageTime& stage : stopwatch.stages()) report.stages.push_back(stage);
+  }
   tracked_.push_back(std::move(report));
-  return Report(visual_->AddFrame({frame.time, std::move(tracked.features), {}}));
+  return Report(visual_->AddFrame(std::move(features)));
 }
 
 }  // namespace regolith

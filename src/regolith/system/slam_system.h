@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "regolith/core/thread_pool.h"
+#include "regolith/features/stereo_matcher.h"
 #include "regolith/geometry/trajectory.h"
 #include "regolith/lio/scan_odometry.h"
 #include "regolith/sensor/rig_calibration.h"
 #include "regolith/sensor/sensor_event.h"
 #include "regolith/system/image_tracker.h"
+#include "regolith/system/lidar_distances.h"
 #include "regolith/system/map_builder.h"
 #include "regolith/system/pipeline_options.h"
 #include "regolith/vio/visual_inertial_odometry.h"
@@ -94,6 +96,9 @@ class SlamSystem {
   std::vector<FrameReport> Report(std::vector<ScanEstimate> estimates);
   std::vector<FrameReport> Report(std::vector<VioEstimate> estimates);
   std::vector<FrameReport> Track(const CameraFrame& frame);
+  std::vector<FrameReport> TrackPair(const CameraFrame& frame);
+  void TellScan(const ScanEstimate& estimate);
+  void TellVelocity(const VioEstimate& estimate);
   void KeepVisualPoses(const std::vector<VioEstimate>& estimates);
 
   /// What a pose of visual odometry goes with: a frame of its window's history.
@@ -105,9 +110,16 @@ class SlamSystem {
   SensorNeeds needs_;
   std::unique_ptr<ScanOdometry> scan_odometry_;     ///< null without a lidar's part
   std::unique_ptr<VisualInertialOdometry> visual_;  ///< null without a camera's part
-  std::vector<VisualAnchor> anchors_;               ///< of the poses of `odometry_`
-  std::deque<FrameReport> tracked_;                 ///< images that wait for their estimate
-  std::unique_ptr<ImageTracker> tracker_;           ///< null where no images are tracked
+  std::unique_ptr<LidarDistances> distances_;       ///< where both are
+  double visual_velocity_sigma_;
+  std::vector<VisualAnchor> anchors_;      ///< of the poses of `odometry_`
+  std::deque<FrameReport> tracked_;        ///< images that wait for their estimate
+  std::unique_ptr<StereoMatcher> stereo_;  ///< null with one camera
+  std::string right_camera_;
+  std::optional<CameraFrame> waiting_left_;   ///< for its right one
+  std::optional<CameraFrame> waiting_right_;  ///< for its left one
+  size_t pairs_missed_ = 0;
+  std::unique_ptr<ImageTracker> tracker_;  ///< null where no images are tracked
   MapBuilder map_;
   Trajectory odometry_;
   size_t scans_seen_ = 0;

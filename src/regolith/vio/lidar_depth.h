@@ -21,10 +21,21 @@ struct MeasuredDistance {
   double sigma = 0.0;     ///< m
 };
 
+/// What measures the distances of features beside the window's own images.
+class DistanceSource {
+ public:
+  virtual ~DistanceSource() = default;
+
+  /// One a bearing (unit, camera frame), where there is one. The pose is that of the camera in the
+  /// world of visual odometry.
+  virtual std::vector<std::optional<MeasuredDistance>> Distances(
+      const SE3& T_world_camera, Span<const Eigen::Vector3d> bearings) = 0;
+};
+
 /// Distances of features from the lidar returns of the last scans: a scan of 16 rings alone sees no
 /// ground nearer than 4.5 m, where a rover's best features are (Shan et al. 2021, section III-B2,
 /// with an occlusion test and an error of its own for each).
-class LidarDepth {
+class LidarDepth : public DistanceSource {
  public:
   explicit LidarDepth(const LidarDepthOptions& options);
 
@@ -34,8 +45,8 @@ class LidarDepth {
 
   /// One a bearing (unit, camera frame): the distance at which it meets the surface seen there.
   /// Nothing where there are too few returns around it, or they lie in no plane.
-  std::vector<std::optional<MeasuredDistance>> Distances(const SE3& T_world_camera,
-                                                         Span<const Eigen::Vector3d> bearings);
+  std::vector<std::optional<MeasuredDistance>> Distances(
+      const SE3& T_world_camera, Span<const Eigen::Vector3d> bearings) override;
 
   size_t scans() const { return scans_.size(); }
 

@@ -223,58 +223,83 @@ void SlidingWindow::Observe(const std::vector<FeatureObservation>& features) {
     sighting.frame = &frame;
     sighting.seen = {feature.bearing, feature.bearing_rate, frame.time_offset};
     sighting.right_bearing = feature.right_bearing;
-    sighting.distance = feature.distance;
-    sighting.distance_sigma = feature.distance_sigma;
     landmark.sightings.push_back(std::move(sighting));
-    BuildSightingResiduals(&landmark);
+    BuildSightingResiduals(&landmark, landmark.sightings.size() - 1);
   }
 }
 
-/// Of the last sighting: the others have theirs.
-void SlidingWindow::BuildSightingResiduals(Landmark* landmark) {
-  LandmarkSighting& sighting = landmark->sightings.back();
-  const LandmarkSighting& anchor = landmark->sightings.front();
-  sighting.residuals.clear();
-  if (landmark->sightings.size() > 1) {
-    sighting.residuals.push_back(
-        {std::make_shared<ReprojectionFactor>(anchor.seen, sighting.seen,
-                                              std::sqrt(2.0) * BearingSigma()),
-         visual_loss_,
-         {anchor.frame->pose.data(), sighting.frame->pose.data(), T_imu_camera_.data(),
-          &landmark->inverse_distance, &time_offset_}});
+void SlidingWindow::BuildSightingResiduals(Landmark* landmark, size_t index) {
+  if (index == 0) {
+    BuildAnchorResiduals(landmark);
     return;
   }
-  if (sighting.right_bearing) {
-    sighting.residuals.push_back(
-        {std::make_shared<StereoFactor>(sighting.seen.bearing, *sighting.right_bearing,
+  LandmarkSighting& sighting = landmark->sightings[index];
+  const LandmarkSighting& anchor = landmark->sightings.front();
+  sighting.residuals = {{std::make_shared<ReprojectionFactor>(anchor.seen, sighting.seen,
+                                                              std::sqrt(2.0) * BearingSigma()),
+                         visual_loss_,
+                         {anchor.frame->pose.data(), sighting.frame->pose.data(),
+                          T_imu_camera_.data(), &landmark->inverse_distance, &time_offset_}}};
+}
+
+/// What is known of the distance alone.
+void SlidingWindow::BuildAnchorResiduals(Landmark* landmark) {
+  LandmarkSighting& anchor = landmark->sightings.front();
+  anchor.residuals.clear();
+  if (anchor.right_bearing) {
+    anchor.residuals.push_back(
+        {std::make_shared<StereoFactor>(anchor.seen.bearing, *anchor.right_bearing,
                                         std::sqrt(2.0) * BearingSigma()),
          visual_loss_,
          {T_imu_camera_.data(), T_imu_right_.data(), &landmark->inverse_distance}});
   }
-  if (!sighting.distance && !sighting.right_bearing) {
-    // Hardly any: it keeps the distance of a landmark without parallax from running away.
-    sighting.residuals.push_back({std::make_shared<ScalarFactor>(1.0 / options_.expected_distance,
-                                                                 options_.inverse_distance_sigma),
-                                  nullptr,
-                                  {&landmark->inverse_distance}});
-  }
-  if (sighting.distance) {
-    const double inverse = 1.0 / *sighting.distance;
-    sighting.residuals.push_back(
-        {std::make_shared<ScalarFactor>(inverse, sighting.distance_sigma * inverse * inverse),
+  if (anchor.measured) {
+    const double inverse = 1.0 / anchor.measured->distance;
+    anchor.residuals.push_back(
+        {std::make_shared<ScalarFactor>(inverse, anchor.measured->sigma * inverse * inverse),
          visual_loss_,
          {&landmark->inverse_distance}});
   }
+  if (!anchor.residuals.empty()) return;
+  // Hardly any: it keeps the distance of a landmark without parallax from running away.
+  anchor.residuals.push_back({std::make_shared<ScalarFactor>(1.0 / options_.expected_distance,
+                                                             options_.inverse_distance_sigma),
+                              nullptr,
+                              {&landmark->inverse_distance}});
+}
+
+int SlidingWindow::MeasureDistances(DistanceSource* source) {
+  std::vector<Landmark*> asked;
+  std::vector<Eigen::Vector3d> bearings;
+  for (auto& [id, landmark] : landmarks_) {
+    if (!landmark.IsSeenIn(&newest()) || landmark.sightings.front().measured) continue;
+    asked.push_back(&landmark);
+    bearings.push_back(landmark.sightings.back().seen.bearing);
+  }
+  const SE3 T_imu_camera = FromPoseBlock(T_imu_camera_.data());
+  const SE3 T_world_camera = FromPoseBlock(newest().pose.data()) * T_imu_camera;
+  const auto distances = source->Distances(T_world_camera, bearings);
+  int measured = 0;
+  for (size_t i = 0; i < asked.size(); ++i) {
+    if (!distances[i]) continue;
+    LandmarkSighting& anchor = asked[i]->sightings.front();
+    const SE3 T_world_anchor = FromPoseBlock(anchor.frame->pose.data()) * T_imu_camera;
+    const Eigen::Vector3d point_anchor =
+        T_world_anchor.Inverse() * (T_world_camera * (distances[i]->distance * bearings[i]));
+    anchor.measured = MeasuredDistance{point_anchor.norm(), distances[i]->sigma};
+    BuildAnchorResiduals(asked[i]);
+    if (!asked[i]->is_placed) {
+      asked[i]->inverse_distance = 1.0 / anchor.measured->distance;
+      asked[i]->is_placed = true;
+    }
+    ++measured;
+  }
+  return measured;
 }
 
 void SlidingWindow::PlaceLandmark(Landmark* landmark) {
   const LandmarkSighting& anchor = landmark->sightings.front();
   const SE3 T_imu_camera = FromPoseBlock(T_imu_camera_.data());
-  if (anchor.distance) {
-    landmark->inverse_distance = 1.0 / *anchor.distance;
-    landmark->is_placed = true;
-    return;
-  }
   std::vector<PointView> views;
   for (const LandmarkSighting& sighting : landmark->sightings) {
     views.push_back(
@@ -380,15 +405,9 @@ int SlidingWindow::RemoveOutliers() {
   return removed;
 }
 
-/// The first sighting is gone: the distance is now along the next one.
+/// The first sighting is gone: everything is now along the next one.
 void SlidingWindow::Reanchor(Landmark* landmark) {
-  landmark->sightings.front().residuals.clear();
-  std::vector<LandmarkSighting> rest = std::move(landmark->sightings);
-  landmark->sightings.clear();
-  for (LandmarkSighting& sighting : rest) {
-    landmark->sightings.push_back(std::move(sighting));
-    BuildSightingResiduals(landmark);
-  }
+  for (size_t i = 0; i < landmark->sightings.size(); ++i) BuildSightingResiduals(landmark, i);
 }
 
 void SlidingWindow::ForgetFrame(const WindowFrame* frame) {
@@ -398,7 +417,9 @@ void SlidingWindow::ForgetFrame(const WindowFrame* frame) {
     auto& sightings = landmark.sightings;
     const bool was_anchor = sightings.front().frame == frame;
     Eigen::Vector3d point_world = Eigen::Vector3d::Zero();
+    std::optional<MeasuredDistance> measured = sightings.front().measured;
     if (was_anchor && landmark.in_use) {
+      if (measured) measured->distance *= landmark.inverse_distance;
       const SE3 T_world_camera = FromPoseBlock(frame->pose.data()) * T_imu_camera;
       point_world = T_world_camera * (sightings.front().seen.bearing /
                                       std::max(landmark.inverse_distance, 1.0 / kFarthest));
@@ -413,7 +434,13 @@ void SlidingWindow::ForgetFrame(const WindowFrame* frame) {
     if (was_anchor) {
       const SE3 T_world_camera = FromPoseBlock(sightings.front().frame->pose.data()) * T_imu_camera;
       if (landmark.in_use) {
-        landmark.inverse_distance = 1.0 / (point_world - T_world_camera.translation).norm();
+        const double distance = (point_world - T_world_camera.translation).norm();
+        landmark.inverse_distance = 1.0 / distance;
+        // As a share of the distance estimated, the measurement holds along the new bearing too.
+        if (measured && !sightings.front().measured) {
+          measured->distance *= distance;
+          sightings.front().measured = measured;
+        }
       }
       Reanchor(&landmark);
     }

@@ -13,6 +13,7 @@
 #include "regolith/sensor/imu_noise.h"
 #include "regolith/sensor/wheel_odometry.h"
 #include "regolith/vio/frame_history.h"
+#include "regolith/vio/lidar_depth.h"
 #include "regolith/vio/vio_options.h"
 #include "regolith/vio/window_frame.h"
 
@@ -46,8 +47,6 @@ struct FeatureObservation {
   Eigen::Vector3d bearing = Eigen::Vector3d::UnitZ();      ///< unit, camera frame
   Eigen::Vector3d bearing_rate = Eigen::Vector3d::Zero();  ///< 1/s
   std::optional<Eigen::Vector3d> right_bearing;            ///< unit, right camera
-  std::optional<double> distance;                          ///< m, by a lidar
-  double distance_sigma = 0.0;                             ///< m
 };
 
 /// The states of the last keyframes and of the newest frame, the landmarks that they see, and what
@@ -70,6 +69,10 @@ class SlidingWindow {
 
   /// What the newest frame sees.
   void Observe(const std::vector<FeatureObservation>& features);
+
+  /// Asks for the distances of landmarks that the newest frame sees and that have none measured
+  /// yet; the number of those that now have one.
+  int MeasureDistances(DistanceSource* source);
 
   /// Says that the newest frame is a keyframe; the oldest leaves the window where it is full.
   void MakeKeyframe();
@@ -120,7 +123,8 @@ class SlidingWindow {
   void AddWheelResiduals(WindowFrame* before, WindowFrame* frame);
   void AddRestResiduals(WindowFrame* before, WindowFrame* frame);
   void Preintegrate(const WindowFrame& before, WindowFrame* frame) const;
-  void BuildSightingResiduals(Landmark* landmark);
+  void BuildSightingResiduals(Landmark* landmark, size_t index);
+  void BuildAnchorResiduals(Landmark* landmark);
   void PlaceLandmark(Landmark* landmark);
   void ForgetFrame(const WindowFrame* frame);
   void Reanchor(Landmark* landmark);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "regolith/core/error.h"
+#include "regolith/factors/gravity_tilt.h"
 #include "regolith/geometry/so3.h"
 #include "regolith/imu/propagation.h"
 #include "regolith/imu/rest_detection.h"
@@ -23,6 +24,9 @@ constexpr double kWheelsLate = 0.1;           // s, that an image waits for whee
 constexpr double kBackwards = 0.12;           // s, that a state is continued into the past
 constexpr double kShortestMotion = 0.002;     // s
 constexpr double kStillWheels = 0.005;        // m, over a window of rest
+constexpr double kFreshStart = 0.5;           // s, age of such a state that a new start still takes
+constexpr double kKnownVelocity = 0.02;       // m/s, of a state that another odometry gives
+constexpr double kKnownGyroBias = 1e-3;       // rad/s
 constexpr int kBadFrames = 5;                 // in a row: a new start
 constexpr double kDivergedCost = 25.0;        // variances a sighting
 constexpr double kJumpFloor = 0.1;            // m
@@ -164,10 +168,10 @@ void VisualInertialOdometry::TryToStart(bool all) {
   while (!waiting_.empty() && TimeOf(waiting_.front()) < samples_.front().time) {
     waiting_.pop_front();
   }
-  if (waiting_.empty()) return;
+  if (waiting_.empty() || StartFromState()) return;
   const TimeNs first = TimeOf(waiting_.front());
   const double seconds = SecondsBetween(first, samples_.back().time);
-  if (seconds < options_.initialization_window && !all) return;
+  if (seconds < std::max(options_.initialization_window, expect_start_) && !all) return;
   if (StartAtRest()) return;
   if (SecondsBetween(first, TimeOf(waiting_.back())) < options_.moving_window && !all) return;
   if (StartInMotion()) return;
@@ -180,6 +184,32 @@ bool VisualInertialOdometry::FeaturesStand(const VioFrame& first, const VioFrame
   const double angle = MedianAngle(first, second, &shared);
   return static_cast<int>(shared) < options_.min_features ||
          angle * calibration_.focal < options_.rest_pixels;
+}
+
+/// At the first image after the state that is known, since another odometry is ahead of images.
+bool VisualInertialOdometry::StartFromState() {
+  if (!start_) return false;
+  auto [state, gravity_world] = *start_;
+  const auto frame = std::find_if(waiting_.begin(), waiting_.end(), [&](const VioFrame& waiting) {
+    return TimeOf(waiting) > start_->first.time;
+  });
+  if (frame == waiting_.end() || TimeOf(*frame) > samples_.back().time) return false;
+  waiting_.erase(waiting_.begin(), frame);
+  const std::vector<ImuSample> steps =
+      SamplesBetween(samples_, state.time, TimeOf(waiting_.front()));
+  for (size_t i = 1; i < steps.size(); ++i) {
+    if (steps[i].time <= steps[i - 1].time) continue;
+    state = Propagate(state, steps[i - 1], steps[i], gravity_world);
+  }
+  StartUncertainty sigma;
+  sigma.velocity = kKnownVelocity;
+  sigma.gyro_bias = kKnownGyroBias;
+  sigma.accelerometer_bias = accelerometer_bias_sigma_;
+  sigma.tilt = accelerometer_bias_sigma_ / calibration_.gravity;
+  window_.Start(state, TiltOfGravity(gravity_world), sigma, waiting_.front().stamp);
+  window_.Observe(Observations(waiting_.front()));
+  last_frame_ = waiting_.front();
+  return true;
 }
 
 bool VisualInertialOdometry::StartAtRest() {
@@ -336,6 +366,11 @@ VioEstimate VisualInertialOdometry::Process(const VioFrame& frame) {
   window_.Observe(Observations(frame));
   const bool is_keyframe = IsKeyframe();
   stopwatch.Lap("vio_prepare");
+  int measured = 0;
+  if (is_keyframe && distance_source_ != nullptr) {
+    measured = window_.MeasureDistances(distance_source_);
+    stopwatch.Lap("vio_distances");
+  }
   const WindowSolution solution =
       SolveWindow(&window_, is_keyframe ? options_.keyframe_iterations : options_.frame_iterations);
   const int outliers = window_.RemoveOutliers();
@@ -349,6 +384,7 @@ VioEstimate VisualInertialOdometry::Process(const VioFrame& frame) {
   }
   VioEstimate estimate = Report(frame);
   estimate.outliers = outliers;
+  estimate.measured_distances = measured;
   estimate.visual_cost = solution.visual_cost;
   if (!solution.is_usable) estimate.health = VioHealth::kDiverged;
   Judge(predicted, &estimate);
@@ -398,7 +434,14 @@ void VisualInertialOdometry::Restart(const NavState& state) {
   sigma.gyro_bias = 0.01;
   sigma.accelerometer_bias = accelerometer_bias_sigma_;
   sigma.tilt = options_.moving_tilt_sigma;
-  window_.Start(start, window_.tilt(), sigma, window_.newest().stamp);
+  Eigen::Vector2d tilt = window_.tilt();
+  if (start_ && std::abs(SecondsBetween(start_->first.time, start.time)) < kFreshStart) {
+    start.v_world_imu = start_->first.v_world_imu;
+    start.gyro_bias = start_->first.gyro_bias;
+    start.accelerometer_bias = start_->first.accelerometer_bias;
+    tilt = TiltOfGravity(start_->second);
+  }
+  window_.Start(start, tilt, sigma, window_.newest().stamp);
   last_frame_.reset();
 }
 

@@ -48,6 +48,7 @@ struct VioEstimate {
   bool is_keyframe = false;
   int landmarks = 0;
   int outliers = 0;
+  int measured_distances = 0;  ///< of its landmarks, by a lidar, at a keyframe
   double visual_cost = 0.0;
   double slip = 0.0;
   double time_offset = 0.0;  ///< s
@@ -72,6 +73,16 @@ class VisualInertialOdometry {
   /// The rig has an IMU and the camera. `right_camera`: its name in the rig, or empty.
   VisualInertialOdometry(const VioOptions& options, const RigCalibration& rig,
                          const std::string& camera, const std::string& right_camera);
+
+  /// Where distances come from, beside the images; it outlives this.
+  void SetDistanceSource(DistanceSource* source) { distance_source_ = source; }
+
+  /// Waits so long (s) for SetStart before it starts from its own measurements.
+  void ExpectStart(double seconds) { expect_start_ = seconds; }
+  /// What another odometry knows (its world becomes this one's): the next start is made from it.
+  void SetStart(const NavState& state, const Eigen::Vector3d& gravity_world) {
+    start_ = {state, gravity_world};
+  }
 
   std::vector<VioEstimate> AddImu(const ImuSample& sample);
   void AddWheels(const WheelOdometry& odometry);
@@ -101,6 +112,7 @@ class VisualInertialOdometry {
   bool HasReached(TimeNs time) const;
   void AnswerStamps(TimeNs until);
   void TryToStart(bool all);
+  bool StartFromState();
   bool StartAtRest();
   bool StartInMotion();
   bool FeaturesStand(const VioFrame& first, const VioFrame& second) const;
@@ -121,6 +133,9 @@ class VisualInertialOdometry {
   double accelerometer_bias_sigma_;
   std::string imu_topic_;
   SlidingWindow window_;
+  DistanceSource* distance_source_ = nullptr;
+  double expect_start_ = 0.0;
+  std::optional<std::pair<NavState, Eigen::Vector3d>> start_;  ///< and gravity
   std::deque<VioFrame> waiting_;
   std::vector<ImuSample> samples_;
   ImuQuality quality_;

@@ -12,6 +12,7 @@
 #include "regolith/factors/ray_transfer.h"
 #include "regolith/imu/preintegration.h"
 #include "regolith/sensor/imu_sample.h"
+#include "regolith/vio/lidar_depth.h"
 #include "regolith/vio/wheel_way.h"
 
 namespace ceres {
@@ -73,8 +74,7 @@ struct LandmarkSighting {
   WindowFrame* frame = nullptr;
   FeatureSighting seen;
   std::optional<Eigen::Vector3d> right_bearing;  ///< unit, right camera, at the same time
-  std::optional<double> distance;                ///< m along the bearing, as a lidar measured it
-  double distance_sigma = 0.0;                   ///< m
+  std::optional<MeasuredDistance> measured;      ///< along the bearing, by a lidar
   std::vector<WindowResidual> residuals;
 };
 
