@@ -84,10 +84,11 @@ std::string ImageCells(const FrameReport& frame) {
 }
 
 std::string VisualCells(const std::optional<VioEstimate>& visual) {
-  if (!visual) return ",,,,,,";
-  char buffer[120];
-  std::snprintf(buffer, sizeof buffer, ",%d,%d,%d,%.3f,%.4f,%.5f", visual->is_keyframe ? 1 : 0,
-                visual->landmarks, visual->outliers, visual->visual_cost, visual->slip,
+  if (!visual) return ",,,,,,,,";
+  char buffer[160];
+  std::snprintf(buffer, sizeof buffer, ",%s,%d,%d,%d,%d,%.3f,%.4f,%.5f",
+                VioHealthName(visual->health), visual->is_keyframe ? 1 : 0, visual->landmarks,
+                visual->measured_distances, visual->outliers, visual->visual_cost, visual->slip,
                 visual->time_offset);
   return buffer;
 }
@@ -99,7 +100,7 @@ std::string StatusTable(const std::vector<FrameReport>& frames) {
       "sigma_z_m,detected_features,recovered_features,rejected_features,new_features,mean_age,"
       "cells,"
       "cells_filled,threshold_rounds,threshold_min,threshold_median,threshold_max,weakest_ratio,"
-      "weakest_x,weakest_y,weakest_z,keyframe,landmarks,visual_outliers,visual_cost,slip,"
+      "weakest_x,weakest_y,weakest_z,health,keyframe,landmarks,measured_distances,visual_outliers,visual_cost,slip,"
       "time_offset_s\n";
   for (const FrameReport& frame : frames) {
     text += SecondsText(frame.stamp) + "," + frame.leader;

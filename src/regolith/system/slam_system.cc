@@ -283,7 +283,7 @@ std::vector<FrameReport> SlamSystem::Report(std::vector<VioEstimate> estimates) 
     }
     report.source = FrameSource::kImage;
     report.stamp = estimate.stamp;
-    report.leader = VioHealthName(estimate.health);
+    report.leader = "camera";
     report.at_rest = estimate.at_rest;
     report.T_world_body = estimate.state.T_world_imu;
     report.covariance = estimate.covariance.topLeftCorner<6, 6>();
