@@ -27,8 +27,8 @@ struct VioOptions {
   int keyframes = 10;               ///< of the window
   int max_landmarks = 150;          ///< tracks that are used, the longest first
   int keyframe_iterations = 6;      ///< of the solver, at a keyframe
-  int frame_iterations = 3;         ///< of the solver, at another frame
-  double keyframe_parallax = 15.0;  ///< pixels, median, turning taken off: a keyframe
+  int frame_iterations = 2;         ///< of the solver, at another frame
+  double keyframe_parallax = 10.0;  ///< pixels, median, turning taken off: a keyframe
   double keyframe_shared = 0.5;     ///< of the last keyframe's features, below which there is one
   double keyframe_turn = 0.2;       ///< rad since the last keyframe, above which there is one
   double pixel_sigma = 0.7;         ///< pixels, of where a feature is seen
@@ -37,7 +37,7 @@ struct VioOptions {
   double min_parallax = 0.01;      ///< rad, of a landmark that is triangulated
   double expected_distance = 4.0;  ///< m, of landmarks without parallax
   double inverse_distance_sigma = 5.0;  ///< 1/m, of that guess: hardly any, since many guesses
-  double noise_inflation = 3.0;         ///< of the IMU's white noise: vibration is in no data sheet
+  double noise_inflation = 1.5;         ///< of the IMU's white noise: vibration is in no data sheet
   bool refine_extrinsics = false;       ///< T_imu_camera is estimated
   double extrinsics_rotation_sigma = 0.02;  ///< rad, of the rig's, where it is estimated
   double extrinsics_position_sigma = 0.01;  ///< m
