@@ -141,8 +141,8 @@ class ClosedForm {
 
   const Vector6d& velocity_and_gravity() const { return solution_; }
 
-  /// Errors (rad) of all bearings, and the largest parallax of each landmark; those behind a camera
-  /// count as errors of π.
+  /// Errors (rad) of all bearings, those behind a camera count as errors of π; and the largest
+  /// parallax of each landmark, as it was seen: a solution may find some in the noise of a rest.
   void Judge(std::vector<double>* errors, std::vector<double>* parallaxes) const {
     for (size_t i = 0; i < landmarks_.size(); ++i) {
       Eigen::Vector3d first = Eigen::Vector3d::Zero();
@@ -151,8 +151,8 @@ class ClosedForm {
         const Eigen::Vector3d ray = views_[frame].R_first_camera * bearing;
         const Eigen::Vector3d seen = (points_[i] - CameraAt(frame)).normalized();
         errors->push_back(std::atan2(ray.cross(seen).norm(), ray.dot(seen)));
-        if (first.isZero()) first = seen;
-        parallax = std::max(parallax, std::acos(std::clamp(first.dot(seen), -1.0, 1.0)));
+        if (first.isZero()) first = ray;
+        parallax = std::max(parallax, std::atan2(first.cross(ray).norm(), first.dot(ray)));
       }
       parallaxes->push_back(parallax);
     }

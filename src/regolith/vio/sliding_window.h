@@ -113,6 +113,7 @@ class SlidingWindow {
   std::vector<std::pair<double*, int>> FixedBlocks();
   bool uses_slip() const { return calibration_.T_imu_base && options_.wheels; }
   std::optional<WindowResidual> PriorResidual() const;
+  const LinearPrior& prior() const { return prior_; }
 
   /// Covariance of [pose, motion] of the newest frame: rotation, position, velocity, biases.
   Matrix15d NewestCovariance();

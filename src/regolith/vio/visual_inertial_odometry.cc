@@ -27,8 +27,9 @@ constexpr double kStillWheels = 0.005;        // m, over a window of rest
 constexpr double kFreshStart = 0.5;           // s, age of such a state that a new start still takes
 constexpr double kKnownVelocity = 0.02;       // m/s, of a state that another odometry gives
 constexpr double kKnownGyroBias = 1e-3;       // rad/s
-constexpr int kBadFrames = 5;                 // in a row: a new start
+constexpr int kBadFrames = 5;                 // more than good ones: a new start
 constexpr double kDivergedCost = 25.0;        // variances a sighting
+constexpr double kMovingGyroBias = 0.02;      // rad/s, of a start in motion
 constexpr double kJumpFloor = 0.1;            // m
 
 VioCalibration CalibrationOf(const VioOptions& options, const RigCalibration& rig,
@@ -248,22 +249,27 @@ bool VisualInertialOdometry::StartAtRest() {
   return true;
 }
 
-bool VisualInertialOdometry::StartInMotion() {
-  std::vector<BearingFrame> frames;
-  for (const VioFrame& frame : waiting_) {
+std::vector<BearingFrame> VisualInertialOdometry::BearingFrames(
+    const std::deque<VioFrame>& frames) const {
+  std::vector<BearingFrame> result;
+  for (const VioFrame& frame : frames) {
     if (TimeOf(frame) > samples_.back().time) break;
     BearingFrame bearings{TimeOf(frame), {}};
     for (const TrackedFeature& feature : frame.features) {
       bearings.bearings.emplace_back(feature.id, feature.bearing);
     }
-    frames.push_back(std::move(bearings));
+    result.push_back(std::move(bearings));
   }
-  const auto start =
-      InitializeInMotion(frames, samples_, calibration_.T_imu_camera, calibration_.gravity);
+  return result;
+}
+
+bool VisualInertialOdometry::StartInMotion() {
+  const auto start = InitializeInMotion(BearingFrames(waiting_), samples_,
+                                        calibration_.T_imu_camera, calibration_.gravity);
   if (!start) return false;
   StartUncertainty sigma;
   sigma.velocity = options_.moving_velocity_sigma;
-  sigma.gyro_bias = 0.02;
+  sigma.gyro_bias = kMovingGyroBias;
   sigma.accelerometer_bias = accelerometer_bias_sigma_;
   sigma.tilt = options_.moving_tilt_sigma;
   window_.Start(start->state, Eigen::Vector2d::Zero(), sigma, waiting_.front().stamp);
@@ -387,6 +393,7 @@ VioEstimate VisualInertialOdometry::Process(const VioFrame& frame) {
   estimate.measured_distances = measured;
   estimate.visual_cost = solution.visual_cost;
   if (!solution.is_usable) estimate.health = VioHealth::kDiverged;
+  recent_.push_back(frame);
   Judge(predicted, &estimate);
   estimate.stages = stopwatch.stages();
   last_frame_ = frame;
@@ -401,7 +408,14 @@ void VisualInertialOdometry::Judge(const NavState& predicted, VioEstimate* estim
   const double correction =
       (state.T_world_imu.translation - predicted.T_world_imu.translation).norm();
   if (estimate->landmarks < options_.min_features) estimate->health = VioHealth::kFewFeatures;
-  if (estimate->visual_cost > kDivergedCost) estimate->health = VioHealth::kDiverged;
+  // Sightings in plenty of which hardly any fits: the motion is wrong, not the scene. Where the IMU
+  // said nothing, that passes.
+  const bool is_outside =
+      !window_.newest().since.is_doubtful &&
+      estimate->outliers > 2 * std::max(estimate->landmarks, options_.min_features);
+  if (is_outside || estimate->visual_cost > kDivergedCost) {
+    estimate->health = VioHealth::kDiverged;
+  }
   if (correction > kJumpFloor + options_.max_jump_speed * seconds) {
     estimate->health = VioHealth::kJump;
   }
@@ -412,12 +426,48 @@ void VisualInertialOdometry::Judge(const NavState& predicted, VioEstimate* estim
     estimate->health = is_finite ? VioHealth::kLargeBias : VioHealth::kDiverged;
     bad_frames_ = kBadFrames;
   }
-  const bool is_bad =
-      estimate->health != VioHealth::kGood && estimate->health != VioHealth::kFewFeatures;
-  bad_frames_ = is_bad ? bad_frames_ + 1 : 0;
+  // While few features fit, nothing speaks for the motion nor against it.
+  if (estimate->health == VioHealth::kGood) {
+    bad_frames_ = std::max(bad_frames_ - 1, 0);
+  } else if (estimate->health != VioHealth::kFewFeatures) {
+    ++bad_frames_;
+  }
   if (bad_frames_ < kBadFrames) return;
   ++failures_[VioHealthName(estimate->health)];
   Restart(is_finite ? state : predicted);
+}
+
+/// What the last images and the IMU say without what was estimated: attitude (level, heading
+/// arbitrary), velocity and gyro bias now.
+std::optional<NavState> VisualInertialOdometry::RecentMotion() const {
+  const TimeNs now = window_.newest().time;
+  std::vector<BearingFrame> frames = BearingFrames(recent_);
+  if (frames.empty() || frames.front().time < samples_.front().time) return std::nullopt;
+  const auto motion =
+      InitializeInMotion(frames, samples_, calibration_.T_imu_camera, calibration_.gravity);
+  if (!motion || motion->state.gyro_bias.norm() > options_.max_gyro_bias) return std::nullopt;
+  NavState state = motion->state;
+  const Eigen::Vector3d gravity_level(0.0, 0.0, -calibration_.gravity);
+  const std::vector<ImuSample> steps = SamplesBetween(samples_, state.time, now);
+  for (size_t i = 1; i < steps.size(); ++i) {
+    if (steps[i].time <= steps[i - 1].time) continue;
+    state = Propagate(state, steps[i - 1], steps[i], gravity_level);
+  }
+  return state;
+}
+
+/// Position and heading stay.
+void VisualInertialOdometry::FollowRecentMotion(const NavState& recent, NavState* state) const {
+  const Eigen::Quaterniond R_world_level =
+      RotationBetween(Eigen::Vector3d::UnitZ(), -window_.gravity_world().normalized());
+  const Eigen::Matrix3d turned = (R_world_level.conjugate() * state->T_world_imu.rotation *
+                                  recent.T_world_imu.rotation.conjugate())
+                                     .toRotationMatrix();
+  const double heading = std::atan2(turned(1, 0) - turned(0, 1), turned(0, 0) + turned(1, 1));
+  const Eigen::Quaterniond R_world_recent = R_world_level * ExpSo3({0.0, 0.0, heading});
+  state->T_world_imu.rotation = R_world_recent * recent.T_world_imu.rotation;
+  state->v_world_imu = R_world_recent * recent.v_world_imu;
+  state->gyro_bias = recent.gyro_bias;
 }
 
 /// A new window that begins where the last one ended.
@@ -440,6 +490,12 @@ void VisualInertialOdometry::Restart(const NavState& state) {
     start.gyro_bias = start_->first.gyro_bias;
     start.accelerometer_bias = start_->first.accelerometer_bias;
     tilt = TiltOfGravity(start_->second);
+  } else if (const auto recent = RecentMotion()) {
+    FollowRecentMotion(*recent, &start);
+    sigma.gyro_bias = kMovingGyroBias;
+  } else if (start.v_world_imu.norm() > options_.max_jump_speed) {
+    start.v_world_imu.setZero();
+    sigma.velocity = options_.max_jump_speed;
   }
   window_.Start(start, tilt, sigma, window_.newest().stamp);
   last_frame_.reset();
@@ -471,7 +527,11 @@ std::optional<NavState> VisualInertialOdometry::StateAt(TimeNs time) const {
 }
 
 void VisualInertialOdometry::Forget() {
-  const TimeNs needed = AddSeconds(window_.newest().time, -2.0 * options_.rest_window);
+  while (SecondsBetween(recent_.front().stamp, recent_.back().stamp) > options_.moving_window) {
+    recent_.pop_front();
+  }
+  const double span = std::max(2.0 * options_.rest_window, options_.moving_window + 0.1);
+  const TimeNs needed = AddSeconds(window_.newest().time, -span);
   const auto first =
       std::lower_bound(samples_.begin(), samples_.end(), needed,
                        [](const ImuSample& sample, TimeNs time) { return sample.time < time; });

@@ -15,6 +15,7 @@
 #include "regolith/sensor/rig_calibration.h"
 #include "regolith/sensor/wheel_odometry.h"
 #include "regolith/vio/imu_quality.h"
+#include "regolith/vio/motion_initialization.h"
 #include "regolith/vio/sliding_window.h"
 #include "regolith/vio/vio_options.h"
 
@@ -125,6 +126,9 @@ class VisualInertialOdometry {
   bool IsKeyframe() const;
   void Judge(const NavState& predicted, VioEstimate* estimate);
   void Restart(const NavState& state);
+  std::optional<NavState> RecentMotion() const;
+  void FollowRecentMotion(const NavState& recent, NavState* state) const;
+  std::vector<BearingFrame> BearingFrames(const std::deque<VioFrame>& frames) const;
   void Forget();
   TimeNs TimeOf(const VioFrame& frame) const;
 
@@ -143,10 +147,11 @@ class VisualInertialOdometry {
   std::deque<TimeNs> stamps_;
   std::vector<StampedState> stamped_;
   std::optional<VioFrame> last_frame_;
+  std::deque<VioFrame> recent_;  ///< the last ones, as many as a start in motion takes
   Matrix15d covariance_ = Matrix15d::Zero();
   size_t resets_ = 0;
   size_t keyframes_ = 0;
-  int bad_frames_ = 0;      ///< in a row
+  int bad_frames_ = 0;      ///< more than good ones
   TimeNs last_visual_ = 0;  ///< time of the last frame with enough features
   std::string start_notice_;
   std::map<std::string, size_t> failures_;
