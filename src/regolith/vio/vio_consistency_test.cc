@@ -32,10 +32,6 @@ double PoseError(uint64_t seed, double duration, bool zero_velocity) {
   const TestRecording recording = Record(motion, RoomLandmarks(seed), sensors, duration, seed);
   VioOptions options = ExactOptions(sensors);
   options.zero_velocity = zero_velocity;
-  if (std::getenv("REST") != nullptr) {
-    options.rest_rotation_sigma = 1.5e-3;
-    options.rest_position_sigma = 3e-3;
-  }
   const TestRun run(options, TestRig(sensors), recording, motion);
   // The covariance is as of the last keyframe.
   const VioEstimate* last = &run.estimates().front();
@@ -81,9 +77,8 @@ TEST_F(VioConsistencyLong, TheCovarianceIsThatOfTheErrors) {
   EXPECT_GT(mean, kDimension - 3.0 * sigma);
 }
 
-/// When a motion begins, rest is seen for a moment more, and what was turned meanwhile (up to half
-/// a pixel between images, 1.3 mrad) is more than rest_rotation_sigma says: errors are larger than
-/// the covariance by a third.
+/// When a motion begins, rest is seen for a moment more: half a pixel between images is some cm/s,
+/// and rest_velocity_sigma says 5 mm/s. Errors are larger than the covariance by a third.
 TEST_F(VioConsistencyLong, RestMakesItALittleTooSure) {
   const double mean = MeanPoseError(kSeeds, 10.0, true);
   RecordProperty("mean_nees", std::to_string(mean));
