@@ -154,13 +154,13 @@ TEST_F(VioFaults, AGyroThatIsFarOffStartsItAnewWhereItWas) {
   EXPECT_GE(run.odometry().resets(), 1U);
   EXPECT_TRUE(run.HasNotice("started anew"));
   EXPECT_TRUE(run.HasHealth(VioHealth::kDiverged, 8.0, 10.5));
-  // 2 s of a gyro 0.6 rad/s off turn gravity by some 30°, which is 5 m/s² and in the end 5 m/s: in
-  // 0.1 s no estimate goes further off than that, at a new start neither.
+  // 2 s of a gyro 0.6 rad/s off turn gravity by some 30°, which is 5 m/s² and in the end 10 m/s; no
+  // new start may add to that.
   for (size_t i = 1; i < run.estimates().size(); ++i) {
     const VioEstimate& before = run.estimates()[i - 1];
     const VioEstimate& now = run.estimates()[i];
     const double error = run.PositionError(now) - run.PositionError(before);
-    ASSERT_LT(std::abs(error), 0.6) << "at " << ToSeconds(now.state.time);
+    ASSERT_LT(std::abs(error), 0.8) << "at " << ToSeconds(now.state.time);
   }
   ExpectRecovered(run);
 }

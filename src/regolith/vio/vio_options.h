@@ -44,7 +44,7 @@ struct VioOptions {
   /// The camera's time offset is estimated where the rig says that it is not known exactly.
   bool refine_time_offset = true;
   bool zero_velocity = true;            ///< a rover that stands still is told so
-  double rest_velocity_sigma = 0.005;   ///< m/s, how still it stands
+  double rest_velocity_sigma = 0.02;    ///< m/s, how still it stands: motion begins unseen
   double rest_position_sigma = 0.001;   ///< m
   double rest_rotation_sigma = 0.0005;  ///< rad
   double rest_pixels = 0.5;             ///< median motion of features between images, at rest below

@@ -331,6 +331,12 @@ std::vector<FeatureObservation> VisualInertialOdometry::Observations(const VioFr
   return observations;
 }
 
+/// Where the IMU did not tell, the first guess is far off.
+int VisualInertialOdometry::Iterations(bool is_keyframe) const {
+  if (window_.newest().since.is_doubtful) return 3 * options_.keyframe_iterations;
+  return is_keyframe ? options_.keyframe_iterations : options_.frame_iterations;
+}
+
 bool VisualInertialOdometry::IsKeyframe() const {
   const WindowFrame& newest = window_.newest();
   if (newest.at_rest) return false;
@@ -377,8 +383,7 @@ VioEstimate VisualInertialOdometry::Process(const VioFrame& frame) {
     measured = window_.MeasureDistances(distance_source_);
     stopwatch.Lap("vio_distances");
   }
-  const WindowSolution solution =
-      SolveWindow(&window_, is_keyframe ? options_.keyframe_iterations : options_.frame_iterations);
+  const WindowSolution solution = SolveWindow(&window_, Iterations(is_keyframe));
   const int outliers = window_.RemoveOutliers();
   stopwatch.Lap("vio_solve");
   if (is_keyframe) {

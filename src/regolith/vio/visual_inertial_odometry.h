@@ -124,6 +124,7 @@ class VisualInertialOdometry {
   bool WheelsStand(TimeNs since) const;
   std::vector<FeatureObservation> Observations(const VioFrame& frame) const;
   bool IsKeyframe() const;
+  int Iterations(bool is_keyframe) const;
   void Judge(const NavState& predicted, VioEstimate* estimate);
   void Restart(const NavState& state);
   std::optional<NavState> RecentMotion() const;
