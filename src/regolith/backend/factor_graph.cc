@@ -10,6 +10,7 @@
 #include <ceres/solver.h>
 
 #include "regolith/core/check.h"
+#include "regolith/factors/gravity_tilt.h"
 #include "regolith/factors/pose_manifold.h"
 #include "regolith/factors/relative_pose_factor.h"
 
@@ -34,7 +35,10 @@ NodeId OtherEnd(NodeId node, const RelativeEdge& edge) {
 /// The Ceres problem of a graph; blocks are added when a term first names them, in a fixed order.
 class FactorGraph::Problem {
  public:
-  explicit Problem(std::deque<Node>* nodes) : nodes_(nodes), problem_(Ownership()) {}
+  explicit Problem(std::deque<Node>* nodes) : nodes_(nodes), problem_(Ownership()) {
+    problem_.AddParameterBlock(gravity_tilt_.data(), kTiltBlockSize);
+    problem_.SetParameterBlockConstant(gravity_tilt_.data());
+  }
 
   void Add(const RelativeEdge& edge, double robust_width) {
     problem_.AddResidualBlock(
@@ -70,6 +74,7 @@ class FactorGraph::Problem {
   double* Block(const BlockId& id) {
     Node& node = (*nodes_)[id.node];
     REGOLITH_CHECK(!node.is_merged, "a factor of node ", id.node, ", which is merged");
+    if (id.kind == BlockKind::kGravityTilt) return gravity_tilt_.data();
     if (id.kind == BlockKind::kMotion) {
       REGOLITH_CHECK(node.has_motion, "node ", id.node, " has no velocity and biases");
       return node.motion.data();
@@ -82,6 +87,7 @@ class FactorGraph::Problem {
   }
 
   PoseManifold manifold_;
+  std::array<double, kTiltBlockSize> gravity_tilt_{};
   std::deque<Node>* nodes_;
   ceres::Problem problem_;
 };
@@ -140,7 +146,8 @@ GraphSolution FactorGraph::Solve() {
   if (edges_.empty() && factors_.empty()) return {};
   Problem problem(&nodes_);
   for (const auto& [id, edge] : edges_) {
-    problem.Add(edge, options_.robust_width);
+    // Both ends may have been merged into one node.
+    if (edge.from != edge.to) problem.Add(edge, options_.robust_width);
   }
   for (const auto& [id, factor] : factors_) problem.Add(*factor);
   return problem.Solve(options_.max_iterations);

@@ -6,12 +6,8 @@
 
 #include <cmath>
 
-#include <ceres/sized_cost_function.h>
-#include <Eigen/Cholesky>
-
 #include "regolith/core/check.h"
 #include "regolith/core/random.h"
-#include "regolith/factors/pose_manifold.h"
 #include "regolith/geometry/so3.h"
 #include "regolith/imu/preintegration.h"
 
@@ -179,71 +175,9 @@ TEST(FactorGraph, NodesThatHoldFactorsOfTheirOwnStay) {
   EXPECT_LT(laps.Error(), 0.3);
 }
 
-/// IMU preintegration between nodes with motion states, by the residual of imu/preintegration.h.
-class ImuCost final : public ceres::SizedCostFunction<15, kPoseBlockSize, 9, kPoseBlockSize, 9> {
- public:
-  ImuCost(const ImuPreintegration& imu, const Eigen::Vector3d& gravity_world)
-      : imu_(imu), gravity_world_(gravity_world) {
-    const Matrix15d information = imu.FullCovariance().inverse();
-    root_ = information.llt().matrixU();
-  }
-
-  bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
-    const ImuResidual residual =
-        imu_.Residual(State(blocks[0], blocks[1]), State(blocks[2], blocks[3]), gravity_world_);
-    Eigen::Map<Vector15d>(residuals, 15) = root_ * residual.value;
-    if (jacobians == nullptr) return true;
-    for (int end = 0; end < 2; ++end) {
-      const Matrix15d jacobian = root_ * (end == 0 ? residual.jacobian_from : residual.jacobian_to);
-      if (jacobians[2 * end] != nullptr) {
-        Eigen::Map<Eigen::Matrix<double, 15, kPoseBlockSize, Eigen::RowMajor>> written(
-            jacobians[2 * end]);
-        written = jacobian.leftCols<6>() * PoseMinusJacobian(blocks[2 * end]);
-      }
-      if (jacobians[2 * end + 1] != nullptr) {
-        Eigen::Map<Eigen::Matrix<double, 15, 9, Eigen::RowMajor>> written(jacobians[2 * end + 1]);
-        written = jacobian.rightCols<9>();
-      }
-    }
-    return true;
-  }
-
- private:
-  static NavState State(const double* pose, const double* motion) {
-    NavState state;
-    state.T_world_imu = FromPoseBlock(pose);
-    state.v_world_imu = Eigen::Map<const Eigen::Vector3d>(motion);
-    state.gyro_bias = Eigen::Map<const Eigen::Vector3d>(motion + 3);
-    state.accelerometer_bias = Eigen::Map<const Eigen::Vector3d>(motion + 6);
-    return state;
-  }
-
-  ImuPreintegration imu_;
-  Eigen::Vector3d gravity_world_;
-  Matrix15d root_;
-};
-
-class ImuBetween final : public GraphFactor {
- public:
-  ImuBetween(NodeId from, NodeId to, const ImuPreintegration& imu)
-      : from_(from), to_(to), imu_(imu) {}
-  std::vector<BlockId> blocks() const override {
-    return {{from_, BlockKind::kPose},
-            {from_, BlockKind::kMotion},
-            {to_, BlockKind::kPose},
-            {to_, BlockKind::kMotion}};
-  }
-  ceres::CostFunction* NewCost() const override { return new ImuCost(imu_, {0.0, 0.0, -kGravity}); }
-  static constexpr double kGravity = 1.62;
-
- private:
-  NodeId from_;
-  NodeId to_;
-  ImuPreintegration imu_;
-};
-
 // Positions from elsewhere and an IMU with a bias: the graph finds velocity and bias.
 TEST(FactorGraph, ImuFactorsBringVelocityAndBiases) {
+  constexpr double kGravity = 1.62;
   const Eigen::Vector3d bias(0.03, -0.02, 0.01);
   FactorGraph graph{FactorGraphOptions()};
   constexpr int kNodes = 12;
@@ -253,7 +187,7 @@ TEST(FactorGraph, ImuFactorsBringVelocityAndBiases) {
     const double t = 0.01 * i;
     ImuSample sample;
     sample.time = FromSeconds(t);
-    sample.specific_force = Eigen::Vector3d(0.0, -0.2 * std::sin(t), ImuBetween::kGravity) + bias;
+    sample.specific_force = Eigen::Vector3d(0.0, -0.2 * std::sin(t), kGravity) + bias;
     samples.push_back(sample);
   }
   Matrix6d information = Matrix6d::Zero();
@@ -266,7 +200,7 @@ TEST(FactorGraph, ImuFactorsBringVelocityAndBiases) {
     if (i == 0) continue;
     ImuPreintegration imu(ImuNoise(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
     imu.Integrate({samples.data() + 100 * (i - 1), 101});
-    graph.AddFactor(std::make_unique<ImuBetween>(node - 1, node, imu));
+    graph.AddFactor(MakeImuFactor(node - 1, node, imu, kGravity));
   }
   graph.Solve();
   const auto middle = graph.state(6);
@@ -274,6 +208,19 @@ TEST(FactorGraph, ImuFactorsBringVelocityAndBiases) {
   EXPECT_LT((middle->v_world_imu - Eigen::Vector3d(0.5, 0.2 * std::cos(6.0), 0.0)).norm(), 0.01);
   EXPECT_LT((middle->accelerometer_bias - bias).norm(), 0.004);
   EXPECT_FALSE(graph.Merge(6, graph.AddEdge({6, 5, {}, false})));
+}
+
+TEST(FactorGraph, EdgesOfMergedNodesGoOnToTheirAnchors) {
+  Laps laps(2 * kLap, 2);
+  const double before = laps.Error();
+  ASSERT_TRUE(laps.graph.Merge(kLap + 4, laps.loops[4]));
+  const Matrix6d covariance = Covariance(0.002, 0.02);
+  const SE3 truth = Truth(10).Inverse() * Truth(kLap + 4);
+  laps.graph.AddEdge({10, kLap + 4, {truth, covariance}, true});
+  laps.graph.AddEdge({4, kLap + 4, {SE3(), covariance}, true});  // one node now
+  laps.graph.Solve();
+  EXPECT_LT(laps.Error(), before + 0.05);
+  EXPECT_LT((laps.graph.pose(kLap + 4).translation - Truth(4).translation).norm(), 0.3);
 }
 
 TEST(FactorGraph, EdgesToNowhereAreRefused) {

@@ -5,6 +5,7 @@
 #include "regolith/backend/uncertain_pose.h"
 #include "regolith/core/check.h"
 #include "regolith/factors/direction_factor.h"
+#include "regolith/factors/imu_factor.h"
 #include "regolith/factors/pose_prior_factor.h"
 
 namespace regolith {
@@ -24,6 +25,27 @@ class PosePrior final : public GraphFactor {
   NodeId node_;
   SE3 T_world_body_;
   Matrix6d root_;
+};
+
+class ImuMotion final : public GraphFactor {
+ public:
+  ImuMotion(NodeId from, NodeId to, const ImuPreintegration& motion, double gravity)
+      : from_(from), to_(to), motion_(motion), gravity_(gravity) {}
+
+  std::vector<BlockId> blocks() const override {
+    return {{from_, BlockKind::kPose},
+            {from_, BlockKind::kMotion},
+            {to_, BlockKind::kPose},
+            {to_, BlockKind::kMotion},
+            {from_, BlockKind::kGravityTilt}};
+  }
+  ceres::CostFunction* NewCost() const override { return new ImuFactor(motion_, gravity_); }
+
+ private:
+  NodeId from_;
+  NodeId to_;
+  ImuPreintegration motion_;
+  double gravity_;
 };
 
 class GravityFactor final : public GraphFactor {
@@ -50,6 +72,11 @@ class GravityFactor final : public GraphFactor {
 std::unique_ptr<GraphFactor> MakePosePrior(NodeId node, const SE3& T_world_body,
                                            const Matrix6d& information) {
   return std::make_unique<PosePrior>(node, T_world_body, information);
+}
+
+std::unique_ptr<GraphFactor> MakeImuFactor(NodeId from, NodeId to, const ImuPreintegration& motion,
+                                           double gravity) {
+  return std::make_unique<ImuMotion>(from, to, motion, gravity);
 }
 
 std::unique_ptr<GraphFactor> MakeGravityFactor(NodeId node, const Eigen::Vector3d& up_body,

@@ -10,6 +10,7 @@
 
 #include "regolith/core/span.h"
 #include "regolith/geometry/se3.h"
+#include "regolith/imu/preintegration.h"
 
 namespace ceres {
 class CostFunction;
@@ -25,6 +26,9 @@ using NodeId = size_t;
 enum class BlockKind {
   kPose,    ///< T_world_body, 7 values (factors/pose_manifold.h)
   kMotion,  ///< velocity (world, m/s), gyro bias (rad/s), accelerometer bias (m/s²), 9 values
+  /// Tilt of gravity (factors/gravity_tilt.h), 2 values, the same for all nodes and held at zero:
+  /// the world's z axis is up.
+  kGravityTilt,
 };
 
 struct BlockId {
@@ -53,6 +57,11 @@ class GraphFactor {
 /// a saved map's frame, or of the ground's height alone.
 std::unique_ptr<GraphFactor> MakePosePrior(NodeId node, const SE3& T_world_body,
                                            const Matrix6d& information);
+
+/// What inertial measurements say between two nodes with motion states; their body is the IMU.
+/// `gravity`: magnitude, m/s².
+std::unique_ptr<GraphFactor> MakeImuFactor(NodeId from, NodeId to, const ImuPreintegration& motion,
+                                           double gravity);
 
 /// `up` (unit, body frame) as the accelerometer sees it at rest, or an odometry that knows gravity.
 /// `sigma`: rad. Goes with its node.
