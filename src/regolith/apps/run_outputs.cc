@@ -111,6 +111,25 @@ std::string StatusTable(const std::vector<FrameReport>& frames) {
   return text;
 }
 
+std::string LoopTable(const Backend& backend) {
+  std::string text =
+      "old_time_s,new_time_s,outcome,agreement,runner_up,matches,scale_m,x_m,y_m,z_m,qx,qy,qz,qw\n";
+  for (const LoopRecord& loop : backend.loops()) {
+    const LoopVerdict& verdict = loop.verdict;
+    const SE3& T_old_new = verdict.T_target_query.T_a_b;
+    char buffer[320];
+    std::snprintf(buffer, sizeof buffer,
+                  ",%s,%.3f,%.3f,%.3f,%.4f,%.4f,%.4f,%.4f,%.6f,%.6f,%.6f,%.6f\n",
+                  LoopOutcomeName(verdict.outcome), verdict.agreement, verdict.relief.runner_up,
+                  verdict.matches, verdict.scale, T_old_new.translation.x(),
+                  T_old_new.translation.y(), T_old_new.translation.z(), T_old_new.rotation.x(),
+                  T_old_new.rotation.y(), T_old_new.rotation.z(), T_old_new.rotation.w());
+    text += SecondsText(backend.keyframes()[loop.old_keyframe].time) + "," +
+            SecondsText(backend.keyframes()[loop.new_keyframe].time) + buffer;
+  }
+  return text;
+}
+
 nlohmann::ordered_json SummaryOf(const RunSetup& setup, const SlamSystem& system,
                                  const RunRecord& record,
                                  const std::optional<Evaluation>& evaluation) {
@@ -227,6 +246,9 @@ void WriteRunOutputs(const std::string& folder, const RunSetup& setup, const Sla
   WritePly(folder + "/map.ply", system.MapPoints(), partial);
   WriteTable(folder + "/timing.csv", TimingTable(record.frames), record.complete);
   WriteTable(folder + "/status.csv", StatusTable(record.frames), record.complete);
+  if (system.backend() != nullptr) {
+    WriteTable(folder + "/loops.csv", LoopTable(*system.backend()), record.complete);
+  }
   const std::string configuration = ResolvedConfiguration(setup);
   WriteFile(folder + "/config.yaml", configuration);
   WriteTable(folder + "/report.html",

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "regolith/config/backend_fields_internal.h"
 #include "regolith/config/features_fields_internal.h"
 #include "regolith/config/lego_loam_fields_internal.h"
 #include "regolith/core/error.h"
@@ -230,6 +231,7 @@ void Fields(Archive& archive, PipelineOptions& options) {
   archive("vio", options.vio);
   archive("lidar_depth", options.lidar_depth);
   archive("visual_velocity_sigma", options.visual_velocity_sigma);
+  archive("backend", options.backend);
   archive("map", options.map);
 }
 
@@ -244,6 +246,7 @@ PipelineOptions LoadPipeline(const YamlDocument& document) {
     options.lego_loam.Check();
     options.vio.Check();
     options.lidar_depth.Check();
+    options.backend.Check();
     options.map.Check();
   } catch (const CheckError& error) {
     throw InputError(document.name(), error.what());

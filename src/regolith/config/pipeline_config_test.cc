@@ -34,6 +34,25 @@ TEST(PipelineConfig, EveryShippedPipelineLoadsUnderItsName) {
   EXPECT_GE(count, 1);
 }
 
+TEST(PipelineConfig, TheBackEndHasSettingsAndChecksThem) {
+  const auto load = [](const std::string& text) {
+    return LoadPipeline(YamlDocument::FromText(text, "pipeline.yaml"));
+  };
+  const PipelineOptions options = load(
+      "pipeline: lio\n"
+      "backend:\n"
+      "  close_loops: false\n"
+      "  verifier:\n"
+      "    min_agreement: 0.95\n"
+      "    relief:\n"
+      "      cell_size: 0.4\n");
+  EXPECT_FALSE(options.backend.close_loops);
+  EXPECT_EQ(options.backend.verifier.min_agreement, 0.95);
+  EXPECT_EQ(options.backend.verifier.relief.cell_size, 0.4);
+  EXPECT_THROW(load("backend:\n  search:\n    max_candidates: 0\n"), InputError);
+  EXPECT_THROW(load("backend:\n  nonsense: 1\n"), InputError);
+}
+
 TEST(PipelineConfig, LegoLoamIsAnOdometryOfItsOwn) {
   const std::string path = std::string(REGOLITH_SOURCE_DIR) + "/config/pipelines/lego_loam.yaml";
   PipelineOptions options = LoadPipeline(YamlDocument::FromFile(path));
@@ -51,7 +70,7 @@ TEST(PipelineConfig, AnUnknownOdometryIsRefused) {
     LoadPipeline(YamlDocument::FromText("odometry: loam\n", "pipeline.yaml"));
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("expected lio or lego_loam"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("expected lio, lego_loam or vio"));
   }
 }
 

@@ -10,7 +10,7 @@
 #include "regolith/geometry/se3.h"
 #include "regolith/lio/feature_map.h"
 #include "regolith/lio/feature_scan_matcher_options.h"
-#include "regolith/lio/scan_matcher.h"
+#include "regolith/registration/scan_matcher.h"
 #include "regolith/sensor/lidar_scan.h"
 
 namespace regolith {

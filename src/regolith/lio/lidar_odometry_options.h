@@ -8,7 +8,7 @@
 #include "regolith/lio/feature_scan_matcher_options.h"
 #include "regolith/lio/inertial_filter_options.h"
 #include "regolith/lio/map_drift_options.h"
-#include "regolith/lio/scan_matcher.h"
+#include "regolith/registration/scan_matcher_options.h"
 
 namespace regolith {
 

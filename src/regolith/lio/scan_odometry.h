@@ -10,7 +10,7 @@
 #include "regolith/core/stopwatch.h"
 #include "regolith/geometry/nav_state.h"
 #include "regolith/geometry/trajectory.h"
-#include "regolith/lio/scan_matcher.h"
+#include "regolith/registration/scan_matcher.h"
 #include "regolith/sensor/imu_sample.h"
 #include "regolith/sensor/lidar_scan.h"
 #include "regolith/sensor/wheel_odometry.h"

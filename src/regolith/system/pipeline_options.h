@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "regolith/backend/backend_options.h"
 #include "regolith/features/feature_options.h"
 #include "regolith/features/model_manifest.h"
 #include "regolith/lio/lego_loam_options.h"
@@ -36,6 +37,7 @@ struct PipelineOptions {
   LidarDepthOptions lidar_depth;
   /// m/s, 1 σ of a velocity that visual odometry tells the lidar's; 0: it does not tell.
   double visual_velocity_sigma = 0.05;
+  BackendOptions backend;  ///< of an odometry that has none of its own
   MapBuilderOptions map;
 
   /// Of the network that `features` names, where it names one. No setting: the program finds it.

@@ -100,6 +100,11 @@ std::unique_ptr<ScanOdometry> MakeScanOdometry(const PipelineOptions& options,
   return std::make_unique<LidarOdometry>(options.lio, rig, threads);
 }
 
+/// LegoLoam has loops of its own; without the lidar nothing confirms them.
+bool HasBackend(const PipelineOptions& options) {
+  return options.backend.enabled && options.odometry == OdometryKind::kLio && options.lio.lidar;
+}
+
 FrameReport ReportOf(const ScanEstimate& estimate) {
   FrameReport report;
   report.stamp = estimate.stamp;
@@ -130,6 +135,7 @@ SlamSystem::SlamSystem(const PipelineOptions& options, const RigCalibration& rig
       scan_odometry_(MakeScanOdometry(options, rig, threads)),
       visual_velocity_sigma_(options.visual_velocity_sigma),
       map_(options.map) {
+  if (HasBackend(options)) backend_ = std::make_unique<Backend>(options.backend, threads);
   if (!needs_.cameras.empty()) {
     tracker_ = std::make_unique<ImageTracker>(options, rig, std::move(camera_mask));
   }
@@ -187,6 +193,9 @@ std::vector<FrameReport> SlamSystem::Finish() {
 }
 
 KeyframeCounts SlamSystem::keyframe_counts() const {
+  if (backend_) {
+    return {backend_->keyframes().size(), backend_->loops_accepted(), backend_->loops_rejected()};
+  }
   if (scan_odometry_) return scan_odometry_->Counts();
   KeyframeCounts counts;
   counts.keyframes = visual_->keyframes();
@@ -207,6 +216,7 @@ std::vector<std::string> SlamSystem::Notices() const {
 }
 
 Trajectory SlamSystem::trajectory() const {
+  if (backend_) return backend_->Corrected(odometry_);
   if (scan_odometry_) return scan_odometry_->Refined().value_or(odometry_);
   const FrameHistory history = visual_->window().History();
   Trajectory refined;
@@ -225,10 +235,27 @@ std::vector<FrameReport> SlamSystem::Report(std::vector<ScanEstimate> estimates)
     map_.Add(estimate.points, static_cast<uint32_t>(odometry_.size() - 1));
     stopwatch.Lap("output_map");
     reports.push_back(ReportOf(estimate));
-    for (const StageTime& stage : stopwatch.stages()) reports.back().stages.push_back(stage);
+    std::vector<StageTime>& stages = reports.back().stages;
+    for (const StageTime& stage : stopwatch.stages()) stages.push_back(stage);
+    for (const StageTime& stage : AddKeyframe(estimate)) stages.push_back(stage);
     TellScan(estimate);
   }
   return reports;
+}
+
+std::vector<StageTime> SlamSystem::AddKeyframe(const ScanEstimate& estimate) {
+  if (!backend_ || !backend_->IsKeyframe(estimate.stamp, estimate.T_world_body)) return {};
+  KeyframeInput keyframe;
+  keyframe.time = estimate.stamp;
+  keyframe.T_odom_body = estimate.T_world_body;
+  keyframe.covariance = estimate.covariance;
+  keyframe.is_level = estimate.inertial.has_value();
+  const SE3 T_body_world = estimate.T_world_body.Inverse();
+  keyframe.points_body.reserve(estimate.points.size());
+  for (const MapPoint& point : estimate.points) {
+    keyframe.points_body.push_back(T_body_world * point.position.cast<double>());
+  }
+  return backend_->Add(keyframe);
 }
 
 /// What the lidar's part knows helps the camera's.
@@ -297,11 +324,11 @@ std::vector<FrameReport> SlamSystem::Report(std::vector<VioEstimate> estimates) 
 
 std::vector<MapPoint> SlamSystem::MapPoints() const {
   if (!scan_odometry_) return {};
-  const std::optional<Trajectory> refined = scan_odometry_->Refined();
-  if (!refined) return map_.points();
+  if (!backend_ && !scan_odometry_->Refined()) return map_.points();
+  const Trajectory best = trajectory();
   std::vector<SE3> corrections;
   for (size_t i = 0; i < odometry_.size(); ++i) {
-    corrections.push_back(refined->poses()[i].T_world_body *
+    corrections.push_back(best.poses()[i].T_world_body *
                           odometry_.poses()[i].T_world_body.Inverse());
   }
   return map_.Moved(corrections);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "regolith/backend/backend.h"
 #include "regolith/core/thread_pool.h"
 #include "regolith/features/stereo_matcher.h"
 #include "regolith/geometry/trajectory.h"
@@ -90,6 +91,8 @@ class SlamSystem {
   /// New starts of an odometry that had lost its way.
   size_t resets() const { return visual_ ? visual_->resets() : 0; }
   KeyframeCounts keyframe_counts() const;
+  /// Keyframes and loops; null where the pipeline has no back end, or one inside its odometry.
+  const Backend* backend() const { return backend_.get(); }
   std::vector<std::string> Notices() const;
 
  private:
@@ -97,6 +100,7 @@ class SlamSystem {
   std::vector<FrameReport> Report(std::vector<VioEstimate> estimates);
   std::vector<FrameReport> Track(const CameraFrame& frame);
   std::vector<FrameReport> TrackPair(const CameraFrame& frame);
+  std::vector<StageTime> AddKeyframe(const ScanEstimate& estimate);
   void TellScan(const ScanEstimate& estimate);
   void TellVelocity(const VioEstimate& estimate);
   void KeepVisualPoses(const std::vector<VioEstimate>& estimates);
@@ -109,6 +113,7 @@ class SlamSystem {
 
   SensorNeeds needs_;
   std::unique_ptr<ScanOdometry> scan_odometry_;     ///< null without a lidar's part
+  std::unique_ptr<Backend> backend_;                ///< null where there is none
   std::unique_ptr<VisualInertialOdometry> visual_;  ///< null without a camera's part
   std::unique_ptr<LidarDistances> distances_;       ///< where both are
   double visual_velocity_sigma_;

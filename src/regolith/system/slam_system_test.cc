@@ -45,6 +45,24 @@ TEST(SlamSystem, EveryScanGetsAPoseAndTheMapGrows) {
   EXPECT_EQ(system.trajectory().size(), 5U);
   EXPECT_EQ(system.scans_seen(), 5U);
   EXPECT_GT(system.MapPoints().size(), 5000U);
+  ASSERT_NE(system.backend(), nullptr);
+  EXPECT_EQ(system.keyframe_counts().keyframes, 1U);
+}
+
+TEST(SlamSystem, TheBackEndCanBeLeftOut) {
+  RigCalibration rig;
+  rig.lidar.emplace();
+  ThreadPool threads(1);
+  PipelineOptions options;
+  options.backend.enabled = false;
+  SlamSystem system(options, rig, &threads);
+  system.Process(Room(0));
+  EXPECT_EQ(system.backend(), nullptr);
+  EXPECT_EQ(system.keyframe_counts().keyframes, 0U);
+  EXPECT_EQ(system.trajectory().size(), 1U);
+  options.backend.enabled = true;
+  options.odometry = OdometryKind::kLegoLoam;
+  EXPECT_EQ(SlamSystem(options, rig, &threads).backend(), nullptr);
 }
 
 TEST(SlamSystem, WithoutTheLidarTheOtherSensorsHaveToBeThere) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Regolith authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "regolith/lio/scan_matcher.h"
+#include "regolith/registration/scan_matcher.h"
 
 #include <Eigen/Cholesky>
 
