@@ -159,7 +159,9 @@ void AddEvaluate(CLI::App& program, std::map<CLI::App*, Command>& commands) {
   app->add_option("--estimate", arguments->estimates, "Estimated trajectories")
       ->required()
       ->type_name("FILE...");
-  app->add_option("--align", arguments->align, "se3, sim3 or none")
+  app->add_option("--align", arguments->align,
+                  "se3, sim3 (with scale), yaw (rotation about z alone), origin (first poses laid "
+                  "together) or none")
       ->type_name("A")
       ->capture_default_str();
   app->add_option("--max-difference", arguments->max_difference,
