@@ -215,6 +215,7 @@ std::string RenderReport(const ReportData& data, const std::string& plotly_path)
   }
   if (!data.frames.empty()) html += FramesSection(data.frames);
   html += TableSections(data) + "</main>\n";
+  html += "<script>\n" + std::string(kThemeScript) + "</script>\n";
   if (!plotly.empty()) {
     html += "<script>" + plotly + "</script>\n<script>\n" + ReportDataScript(data) +
             "</script>\n<script>\n" + std::string(kSceneScript) + "</script>\n<script>\n" +

@@ -4,11 +4,6 @@
 // Draws the object `data` (report.cc) into the elements that the page has.
 "use strict";
 
-const root = document.documentElement;
-const systemTheme = window.matchMedia("(prefers-color-scheme: dark)");
-let chosenTheme = null;
-function applyTheme() { root.dataset.theme = chosenTheme || (systemTheme.matches ? "dark" : "light"); }
-applyTheme();
 const color = name => getComputedStyle(root).getPropertyValue(name).trim();
 const isNarrow = () => window.innerWidth < 820;
 const $ = id => document.getElementById(id);
@@ -405,12 +400,7 @@ function buildScene() {
 for (const figure of document.querySelectorAll(".frames figure[data-time]")) {
   figure.addEventListener("click", () => seek(Number(figure.dataset.time)));
 }
-$("theme").addEventListener("click", () => {
-  chosenTheme = root.dataset.theme === "dark" ? "light" : "dark";
-  applyTheme();
-  redraws.forEach(draw => draw());
-});
-systemTheme.addEventListener("change", () => { applyTheme(); redraws.forEach(draw => draw()); });
+themeListeners.push(() => redraws.forEach(draw => draw()));
 buildScene();
 drawPlots();
 seek(data.duration);
