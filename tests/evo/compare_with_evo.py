@@ -26,7 +26,7 @@ import numpy
 TOLERANCE = 1e-6
 STATISTICS = ("rmse", "mean", "median", "std", "min", "max", "sse")
 TEN_METRES = ("--delta", "10", "--delta_unit", "m", "--all_pairs")
-ALIGN_ARGUMENTS = {"se3": ("-a",), "sim3": ("-a", "-s"), "none": ()}
+ALIGN_ARGUMENTS = {"se3": ("-a",), "sim3": ("-a", "-s"), "origin": ("--align_origin",), "none": ()}
 
 
 def quaternion_product(first, second):
@@ -155,8 +155,8 @@ def regolith_metrics(program, folder, mode, max_difference):
 
 def compare(program, case, seed):
     """The largest difference of a case and a line for every metric that differs."""
-    mode = ("se3", "sim3", "none")[case % 3]
-    max_difference = (0.02, 0.02, 0.005)[case // 3 % 3]
+    mode = tuple(ALIGN_ARGUMENTS)[case % 4]
+    max_difference = (0.02, 0.02, 0.005)[case // 4 % 3]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         make_case(folder, seed + case)

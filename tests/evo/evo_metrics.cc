@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Regolith authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// regolith_evo_metrics REFERENCE ESTIMATE se3|sim3|none MAX_DIFFERENCE
+// regolith_evo_metrics REFERENCE ESTIMATE se3|sim3|origin|none MAX_DIFFERENCE
 // prints every metric as "name value", for comparison with evo.
 #include <cstdio>
 #include <cstdlib>
@@ -34,9 +34,10 @@ void PrintMetrics(char** arguments) {
   const std::vector<StampedPose> estimate = ReadTum(arguments[2]);
   const std::string mode = arguments[3];
   EvaluationOptions options;
-  options.alignment = mode == "se3"    ? AlignmentMode::kSe3
-                      : mode == "sim3" ? AlignmentMode::kSim3
-                                       : AlignmentMode::kNone;
+  options.alignment = mode == "se3"      ? AlignmentMode::kSe3
+                      : mode == "sim3"   ? AlignmentMode::kSim3
+                      : mode == "origin" ? AlignmentMode::kOrigin
+                                         : AlignmentMode::kNone;
   options.max_difference = std::atof(arguments[4]);
   const Evaluation evaluation =
       EvaluateTrajectory({arguments[1], reference}, {arguments[2], estimate}, options);
@@ -54,7 +55,8 @@ void PrintMetrics(char** arguments) {
 
 int main(int argc, char** argv) {
   if (argc != 5) {
-    std::fprintf(stderr, "usage: %s REFERENCE ESTIMATE se3|sim3|none MAX_DIFFERENCE\n", argv[0]);
+    std::fprintf(stderr, "usage: %s REFERENCE ESTIMATE se3|sim3|origin|none MAX_DIFFERENCE\n",
+                 argv[0]);
     return 2;
   }
   try {

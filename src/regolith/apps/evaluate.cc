@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include "regolith/apps/metrics_json.h"
 #include "regolith/apps/output_folder.h"
@@ -13,10 +15,18 @@
 #include "regolith/core/log.h"
 #include "regolith/io/atomic_file.h"
 #include "regolith/io/tum.h"
-#include "regolith/report/figures.h"
+#include "regolith/report/evaluation_figures.h"
 
 namespace regolith {
 namespace {
+
+AlignmentMode ParseAlignment(const std::string& name) {
+  for (const AlignmentMode mode : {AlignmentMode::kSe3, AlignmentMode::kSim3, AlignmentMode::kYaw,
+                                   AlignmentMode::kOrigin, AlignmentMode::kNone}) {
+    if (name == AlignmentName(mode)) return mode;
+  }
+  throw InputError("--align", "is '" + name + "'; expected se3, sim3, yaw, origin or none");
+}
 
 EvaluationOptions Options(const EvaluateArguments& arguments) {
   EvaluationOptions options;
@@ -25,15 +35,7 @@ EvaluationOptions Options(const EvaluateArguments& arguments) {
     throw InputError("--max-difference",
                      Concatenate("is ", arguments.max_difference, "; expected seconds, 0 or more"));
   }
-  if (arguments.align == "se3") {
-    options.alignment = AlignmentMode::kSe3;
-  } else if (arguments.align == "sim3") {
-    options.alignment = AlignmentMode::kSim3;
-  } else if (arguments.align == "none") {
-    options.alignment = AlignmentMode::kNone;
-  } else {
-    throw InputError("--align", "is '" + arguments.align + "'; expected se3, sim3 or none");
-  }
+  options.alignment = ParseAlignment(arguments.align);
   return options;
 }
 
@@ -72,29 +74,35 @@ std::vector<NamedEvaluation> EvaluateAll(const EvaluateArguments& arguments) {
   return evaluations;
 }
 
-void DrawFigures(const std::string& folder, const std::vector<NamedEvaluation>& evaluations) {
-  // Estimates may match different stretches of the reference; the longest shows most of it.
-  const auto is_shorter = [](const NamedEvaluation& first, const NamedEvaluation& second) {
-    return first.evaluation.length_m < second.evaluation.length_m;
-  };
-  const Evaluation& longest =
-      std::max_element(evaluations.begin(), evaluations.end(), is_shorter)->evaluation;
-  std::vector<FigureTrajectory> trajectories = {{"reference", longest.reference}};
-  std::vector<FigureSeries> errors;
-  TimeNs start = longest.reference.front().time;
-  for (const NamedEvaluation& named : evaluations) {
-    start = std::min(start, named.evaluation.estimate.front().time);
+/// Milliseconds of each frame of the run that an estimate came from: the sums over timing.csv
+/// beside it. Empty where there is none, or it is something else.
+std::vector<double> FrameTimes(const std::string& estimate) {
+  const std::filesystem::path table = std::filesystem::path(estimate).parent_path() / "timing.csv";
+  std::ifstream stream(table);
+  std::string line;
+  std::vector<double> times;
+  std::string last;
+  if (!std::getline(stream, line) || line != "time_s,stage,milliseconds") return times;
+  while (std::getline(stream, line)) {
+    const size_t first = line.find(',');
+    const size_t second = line.rfind(',');
+    if (first == std::string::npos || second == first) return {};
+    const std::string stamp = line.substr(0, first);
+    if (times.empty() || stamp != last) times.push_back(0.0);
+    times.back() += std::strtod(line.c_str() + second + 1, nullptr);
+    last = stamp;
   }
-  for (const NamedEvaluation& named : evaluations) {
-    trajectories.push_back({named.name, named.evaluation.estimate});
-    FigureSeries series{named.name, {}, named.evaluation.ape_m};
-    for (const StampedPose& pose : named.evaluation.estimate) {
-      series.seconds.push_back(SecondsBetween(start, pose.time));
-    }
-    errors.push_back(std::move(series));
+  return times;
+}
+
+void DrawFigures(const EvaluateArguments& arguments,
+                 const std::vector<NamedEvaluation>& evaluations) {
+  std::vector<FigureEstimate> estimates;
+  for (size_t i = 0; i < evaluations.size(); ++i) {
+    estimates.push_back(
+        {evaluations[i].name, &evaluations[i].evaluation, FrameTimes(arguments.estimates[i])});
   }
-  DrawTrajectories(folder, "Trajectories from above", trajectories);
-  DrawSeries(folder, "ape", "Absolute pose error", "APE, m", errors);
+  DrawEvaluation(arguments.out, estimates);
 }
 
 }  // namespace
@@ -105,7 +113,9 @@ int Evaluate(const EvaluateArguments& arguments) {
     PrepareOutputFolder(arguments.out, arguments.overwrite);
     WriteFile(arguments.out + "/metrics.json", MetricsJson(evaluations));
     WriteFile(arguments.out + "/metrics.csv", MetricsCsv(evaluations));
-    DrawFigures(arguments.out, evaluations);
+    WriteFile(arguments.out + "/metrics.tex", MetricsLatex(evaluations));
+    WriteFile(arguments.out + "/metrics.txt", MetricsTable(evaluations));
+    DrawFigures(arguments, evaluations);
     if (!arguments.quiet) LogInfo("metrics and figures are in " + arguments.out);
   }
   if (!arguments.quiet) std::fputs(MetricsTable(evaluations).c_str(), stdout);

@@ -11,7 +11,7 @@ namespace regolith {
 struct EvaluateArguments {
   std::string reference;               ///< TUM file
   std::vector<std::string> estimates;  ///< TUM files
-  std::string align = "se3";           ///< se3, sim3 or none
+  std::string align = "se3";           ///< se3, sim3, yaw, origin or none
   double max_difference = 0.02;        ///< s between the stamps of associated poses
   std::string out;                     ///< folder; empty: the table is printed and nothing written
   bool overwrite = false;
@@ -19,9 +19,9 @@ struct EvaluateArguments {
 };
 
 /// Measures estimates against a reference by evo's definitions, prints a table and writes
-/// metrics.json (one estimate: its metrics; several: {"estimates": {name: metrics}}), metrics.csv,
-/// trajectory.{dat,gp,png,svg} and ape.{dat,gp,png,svg}. Returns the exit code; throws InputError
-/// and OutputError.
+/// metrics.json (one estimate: its metrics; several: {"estimates": {name: metrics}}), the same as
+/// metrics.csv, its main figures as metrics.tex and metrics.txt, and the figures of DrawEvaluation.
+/// Returns the exit code; throws InputError and OutputError.
 int Evaluate(const EvaluateArguments& arguments);
 
 }  // namespace regolith

@@ -12,6 +12,7 @@
 
 #include "regolith/core/error.h"
 #include "regolith/geometry/so3.h"
+#include "regolith/io/atomic_file.h"
 #include "regolith/io/text_input.h"
 #include "regolith/io/tum.h"
 
@@ -67,18 +68,22 @@ TEST_F(EvaluateTest, WritesTheMetricsOfOneEstimateByThemselves) {
   EXPECT_NEAR(metrics["length_m"], 0.2 * 119, 0.01);
   EXPECT_NEAR(metrics["ape"]["rmse"], 0.1 / std::sqrt(2.0), 0.005);
   for (const char* key : {"rmse", "mean", "median", "std", "min", "max", "sse"}) {
-    for (const char* group : {"ape", "rpe", "rpe_10m"}) {
+    for (const char* group : {"ape", "rpe", "rpe_10m", "x_m", "y_m", "z_m", "yaw_deg"}) {
       EXPECT_TRUE(metrics[group][key].is_number()) << group << "." << key;
     }
   }
-  for (const char* key :
-       {"percent_of_distance", "drift_percent", "rotation_deg_per_m", "rotation_deg"}) {
+  for (const char* key : {"percent_of_distance", "drift_percent", "rotation_deg_per_m",
+                          "rotation_deg", "scale", "fitted_scale", "time_coverage"}) {
     EXPECT_TRUE(metrics[key].is_number()) << key;
   }
   const std::string csv = ReadFile(arguments_.out + "/metrics.csv");
   EXPECT_THAT(csv, StartsWith("estimate,matched,length_m,ape_rmse,"));
   EXPECT_THAT(csv, HasSubstr("\ntrajectory,120,"));
+  EXPECT_THAT(csv, HasSubstr(",yaw_deg_rmse,"));
+  EXPECT_THAT(ReadFile(arguments_.out + "/metrics.tex"), HasSubstr("\ntrajectory & 23.7"));
+  EXPECT_THAT(ReadFile(arguments_.out + "/metrics.txt"), HasSubstr("APE RMSE"));
   EXPECT_TRUE(std::filesystem::exists(arguments_.out + "/trajectory.gp"));
+  EXPECT_FALSE(std::filesystem::exists(arguments_.out + "/timing.gp"));
   EXPECT_TRUE(std::filesystem::exists(arguments_.out + "/ape.dat"));
 }
 
@@ -92,10 +97,26 @@ TEST_F(EvaluateTest, NamesSeveralEstimatesApart) {
   EXPECT_TRUE(metrics["estimates"]["b/trajectory"]["drift_percent"].is_null());
 }
 
+TEST_F(EvaluateTest, MarksTheBestOfSeveralAndEscapesTheirNames) {
+  arguments_.estimates.push_back(Write("a/50%_worse.tum", 0.2, 120));
+  EXPECT_EQ(Evaluate(arguments_), 0);
+  const std::string table = ReadFile(arguments_.out + "/metrics.tex");
+  EXPECT_THAT(table, HasSubstr("\\textbf{0.0698}"));
+  EXPECT_THAT(table, HasSubstr("50\\%\\_worse & "));
+}
+
+TEST_F(EvaluateTest, ShowsTheTimesOfTheRunThatAnEstimateCameFrom) {
+  WriteFile(folder_ + "/a/timing.csv",
+            "time_s,stage,milliseconds\n5.0,deskew,1\n5.0,match,2.5\n5.1,match,4\n");
+  EXPECT_EQ(Evaluate(arguments_), 0);
+  EXPECT_THAT(ReadFile(arguments_.out + "/timing.dat"),
+              HasSubstr("\n1 3.5 3.625 3.75 3.875 4  # trajectory\n"));
+}
+
 TEST_F(EvaluateTest, SaysWhatIsWrong) {
   EvaluateArguments wrong = arguments_;
   wrong.align = "so3";
-  EXPECT_THAT(ErrorOf(wrong), HasSubstr("expected se3, sim3 or none"));
+  EXPECT_THAT(ErrorOf(wrong), HasSubstr("expected se3, sim3, yaw, origin or none"));
   wrong = arguments_;
   wrong.max_difference = -1.0;
   EXPECT_THAT(ErrorOf(wrong), HasSubstr("--max-difference"));

@@ -9,6 +9,7 @@
 #include "regolith/apps/evaluate.h"
 #include "regolith/apps/info.h"
 #include "regolith/apps/match.h"
+#include "regolith/apps/reproduce.h"
 #include "regolith/apps/run.h"
 #include "regolith/apps/run_setup.h"
 #include "regolith/apps/simulate.h"
@@ -159,7 +160,9 @@ void AddEvaluate(CLI::App& program, std::map<CLI::App*, Command>& commands) {
   app->add_option("--estimate", arguments->estimates, "Estimated trajectories")
       ->required()
       ->type_name("FILE...");
-  app->add_option("--align", arguments->align, "se3, sim3 or none")
+  app->add_option("--align", arguments->align,
+                  "se3, sim3 (with scale), yaw (rotation about z alone), origin (first poses laid "
+                  "together) or none")
       ->type_name("A")
       ->capture_default_str();
   app->add_option("--max-difference", arguments->max_difference,
@@ -199,6 +202,45 @@ void AddMatch(CLI::App& program, std::map<CLI::App*, Command>& commands) {
       "Example:\n  regolith match pairs/000000_1.png pairs/000000_2.png --correspondences "
       "pairs/000000_flow.tif --out out/match");
   commands[app] = [arguments] { return regolith::Match(*arguments); };
+}
+
+void AddReproduce(CLI::App& program, std::map<CLI::App*, Command>& commands) {
+  const auto arguments = std::make_shared<regolith::ReproduceArguments>();
+  CLI::App* app = program.add_subcommand(
+      "reproduce", "Make the paper's tables and figures with our data; goes on where it was ended");
+  app->add_option("--scale", arguments->scale,
+                  "short: 40 s drives, about 15 minutes; full: the paper's lengths, hours")
+      ->type_name("S")
+      ->capture_default_str();
+  app->add_option("--seeds", arguments->seeds, "Drives a scenario: seeds 1 to N [1, full: 3]")
+      ->type_name("N");
+  app->add_option("--duration", arguments->duration,
+                  "Seconds of every drive, instead of the scenario's; for trying out")
+      ->type_name("S");
+  app->add_option("--pairs", arguments->pairs, "Image pairs a drive; 0: no table 1 [4, full: 40]")
+      ->type_name("N");
+  app->add_option("--methods", arguments->methods,
+                  "Rows of table 2, with commas [all]: lego_loam, orb_slam2, lvi_sam, paper, "
+                  "regolith, lio, vio, wheels, kiss_icp")
+      ->delimiter(',')
+      ->type_name("LIST");
+  app->add_option("--quality", arguments->quality, "Of the simulation: full or draft")
+      ->type_name("Q")
+      ->capture_default_str();
+  app->add_option("--python", arguments->python,
+                  "Interpreter that has the outside packages (benchmark/requirements_outside*.txt) "
+                  "[REGOLITH_OUTSIDE_PYTHON or python3]")
+      ->type_name("FILE");
+  app->add_option("--threads", arguments->threads, "Threads of every command")
+      ->check(CLI::Range(0, 256))
+      ->type_name("N")
+      ->capture_default_str();
+  app->add_option("--out", arguments->out, "Folder; one that was begun by the same command goes on")
+      ->required()
+      ->type_name("DIR");
+  app->add_flag("--quiet", arguments->quiet, "Errors only");
+  app->footer("Example:\n  regolith reproduce --scale short --out out/paper");
+  commands[app] = [arguments] { return regolith::Reproduce(*arguments); };
 }
 
 int RunInfo(const regolith::InfoArguments& arguments) {
@@ -254,6 +296,7 @@ int main(int argc, char** argv) {
   AddRun(program, commands);
   AddEvaluate(program, commands);
   AddMatch(program, commands);
+  AddReproduce(program, commands);
   AddInfo(program, commands);
   try {
     program.parse(argc, argv);

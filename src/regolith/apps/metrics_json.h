@@ -21,6 +21,9 @@ std::string MetricsJson(const std::vector<NamedEvaluation>& evaluations);
 /// The same as comma-separated values, a row an estimate.
 std::string MetricsCsv(const std::vector<NamedEvaluation>& evaluations);
 
+/// The main figures as a table for a paper (package booktabs); the best of several in bold.
+std::string MetricsLatex(const std::vector<NamedEvaluation>& evaluations);
+
 /// For the terminal: the main figures in aligned columns.
 std::string MetricsTable(const std::vector<NamedEvaluation>& evaluations);
 

@@ -13,6 +13,7 @@
 
 #include "regolith/apps/output_folder.h"
 #include "regolith/apps/progress.h"
+#include "regolith/apps/run_monitor.h"
 #include "regolith/apps/run_outputs.h"
 #include "regolith/apps/run_report.h"
 #include "regolith/apps/run_setup.h"
@@ -65,7 +66,7 @@ void Keep(std::vector<FrameReport> reports, RunRecord* record) {
 /// Feeds the recording to the system until its end or a request to stop. A failure in the middle is
 /// kept in `failure`, so that what was estimated before it can be written.
 RunRecord Estimate(SensorSource& source, double rate, bool quiet, SlamSystem& system,
-                   std::exception_ptr* failure) {
+                   RunMonitor monitor, std::exception_ptr* failure) {
   RunRecord record;
   Progress progress("run", SecondsBetween(source.start_time(), source.end_time()), quiet);
   Pacer pacer(rate);
@@ -83,6 +84,7 @@ RunRecord Estimate(SensorSource& source, double rate, bool quiet, SlamSystem& sy
       if (first == 0) first = last;
       pacer.Wait(last);
       Keep(system.Process(*event), &record);
+      monitor.Observe(*event);
       progress.Update(SecondsBetween(first, last));
     }
     Keep(system.Finish(), &record);
@@ -90,6 +92,7 @@ RunRecord Estimate(SensorSource& source, double rate, bool quiet, SlamSystem& sy
     record.complete = false;
     *failure = std::current_exception();
   }
+  record.samples = monitor.TakeSamples();
   record.recording_seconds = SecondsBetween(first, last);
   record.wall_seconds = SecondsSince(start);
   record.cpu_seconds = ProcessorSeconds() - processor_start;
@@ -152,7 +155,11 @@ int Run(const RunArguments& arguments) {
   PrepareOutputFolder(arguments.out, arguments.overwrite);
 
   std::exception_ptr failure;
-  RunRecord record = Estimate(*source, arguments.rate, arguments.quiet, system, &failure);
+  const bool tracks = TracksImages(setup.pipeline, setup.rig);
+  RunMonitor monitor(tracks ? setup.pipeline.tracked_camera : "", source->start_time(),
+                     source->end_time());
+  RunRecord record =
+      Estimate(*source, arguments.rate, arguments.quiet, system, std::move(monitor), &failure);
   record.peak_rss_mb = PeakMegabytes();
   const std::string unused = UnusedSensors(setup, system.needs());
   if (!unused.empty()) record.notices.push_back(unused);

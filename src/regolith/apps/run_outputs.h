@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "regolith/apps/run.h"
+#include "regolith/apps/run_monitor.h"
 #include "regolith/apps/run_setup.h"
 #include "regolith/eval/evaluation.h"
 #include "regolith/system/slam_system.h"
@@ -22,6 +23,7 @@ struct RunRecord {
   double peak_rss_mb = 0.0;
   std::vector<FrameReport> frames;
   std::vector<std::string> notices;
+  RunSamples samples;  ///< for the report
 };
 
 /// Error against the truth that lies beside the recording; nothing where there is none or it does

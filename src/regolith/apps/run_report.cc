@@ -5,6 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "regolith/apps/run_frames.h"
+#include "regolith/core/version.h"
+#include "regolith/report/report_map.h"
 
 namespace regolith {
 namespace {
@@ -15,66 +22,233 @@ std::string Text(const char* format, double value) {
   return buffer;
 }
 
-/// A value of the scans or of the images over the time from the first frame of either.
-template <typename Value>
-ReportSeries SeriesOf(const std::string& name, FrameSource source,
-                      const std::vector<FrameReport>& frames, Value value) {
-  ReportSeries series{name, {}, {}};
-  if (frames.empty()) return series;
+/// "features_extract_network" as people read it.
+std::string StageName(std::string name) {
+  for (const std::string prefix : {"features_extract_", "features_"}) {
+    if (name.rfind(prefix, 0) != 0) continue;
+    name = name.substr(prefix.size());
+    break;
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+TimeNs FirstStamp(const std::vector<FrameReport>& frames) {
   const auto first = std::min_element(
       frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
-  for (const FrameReport& frame : frames) {
+  return first == frames.end() ? 0 : first->stamp;
+}
+
+/// A value of the scans or of the images over time; nothing where there are none.
+template <typename Value>
+void AppendSeries(const std::string& name, FrameSource source, const RunRecord& record,
+                  TimeNs start, Value value, std::vector<ReportSeries>* list) {
+  ReportSeries series{name, {}, {}};
+  for (const FrameReport& frame : record.frames) {
     if (frame.source != source) continue;
-    series.seconds.push_back(SecondsBetween(first->stamp, frame.stamp));
+    series.seconds.push_back(SecondsBetween(start, frame.stamp));
     series.values.push_back(value(frame));
   }
-  return series;
+  if (!series.values.empty()) list->push_back(std::move(series));
 }
 
-double TotalMilliseconds(const FrameReport& frame) {
-  double total = 0.0;
-  for (const StageTime& stage : frame.stages) total += stage.milliseconds;
-  return total;
-}
-
-void AddError(const Evaluation& evaluation, TimeNs start, ReportData* data) {
-  data->reference = ReferenceInEstimateFrame(evaluation.reference, evaluation.alignment);
-  data->ape = evaluation.ape;
-  ReportSeries error{"error, m", {}, evaluation.ape_m};
-  for (const StampedPose& pose : evaluation.estimate) {
-    error.seconds.push_back(SecondsBetween(start, pose.time));
+/// Errors that belong to poses of the estimate, NaN for those that truth says nothing of.
+std::vector<double> ErrorsOf(const std::vector<StampedPose>& estimate,
+                             const Evaluation& evaluation) {
+  std::map<TimeNs, double> known;
+  for (size_t i = 0; i < evaluation.estimate.size(); ++i) {
+    known[evaluation.estimate[i].time] = evaluation.ape_m[i];
   }
-  data->error = error;
-  data->highlights.push_back({"APE RMSE", Text("%.3f m", evaluation.ape.rmse)});
+  std::vector<double> errors;
+  for (const StampedPose& pose : estimate) {
+    const auto found = known.find(pose.time);
+    errors.push_back(found == known.end() ? std::nan("") : found->second);
+  }
+  return errors;
+}
+
+void AddError(const Evaluation& evaluation, ReportData* data) {
+  data->reference = ReferenceInEstimateFrame(evaluation.reference, evaluation.alignment);
+  data->estimate_error = ErrorsOf(data->estimate, evaluation);
+  data->ape = evaluation.ape;
+  std::vector<double> seconds;
+  for (const StampedPose& pose : evaluation.estimate) {
+    seconds.push_back(SecondsBetween(data->start, pose.time));
+  }
+  data->errors.push_back({"distance", seconds, evaluation.ape_m});
+  constexpr const char* kAxes[] = {"along x", "along y", "along z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    ReportSeries series{kAxes[axis], seconds, {}};
+    for (const Eigen::Vector3d& offset : evaluation.offsets_m) {
+      series.values.push_back(offset[axis]);
+    }
+    data->errors.push_back(std::move(series));
+  }
+  data->yaw_error = ReportSeries{"heading", seconds, evaluation.yaw_deg};
+  data->highlights.push_back({"error (APE RMSE)", Text("%.3f m", evaluation.ape.rmse)});
   if (evaluation.percent_of_distance) {
     data->highlights.push_back(
         {"of the distance", Text("%.2f %%", *evaluation.percent_of_distance)});
+  }
+  if (evaluation.drift_percent) {
+    data->highlights.push_back({"drift over 10 m", Text("%.2f %%", *evaluation.drift_percent)});
   }
 }
 
 void AddMap(const SlamSystem& system, ReportData* data) {
   const std::vector<MapPoint> points = system.MapPoints();
-  const size_t step = points.size() / kReportMapPoints + 1;
-  for (size_t i = 0; i < points.size(); i += step) {
-    data->map.push_back({points[i].position, points[i].position.z()});
+  for (const size_t i : ThinEvenly(points.size(), kReportMapPoints)) {
+    data->map.push_back({points[i].position, points[i].intensity});
   }
   data->map_total = points.size();
 }
 
-void AddStatus(const std::vector<FrameReport>& frames, ReportData* data) {
-  if (frames.empty()) return;
-  const auto scans = FrameSource::kScan;
-  data->frame_ms = SeriesOf("time a scan, ms", scans, frames, TotalMilliseconds);
-  data->status = {SeriesOf("matched points", scans, frames,
-                           [](const FrameReport& frame) { return frame.matches; }),
-                  SeriesOf("degenerate directions", scans, frames,
-                           [](const FrameReport& frame) { return frame.degenerate_directions; }),
-                  SeriesOf("σ of the position, m", scans, frames, [](const FrameReport& frame) {
-                    return std::sqrt(frame.covariance.bottomRightCorner<3, 3>().trace());
-                  })};
-  ReportSeries tracked = SeriesOf("tracked features", FrameSource::kImage, frames,
-                                  [](const FrameReport& frame) { return frame.features.tracked; });
-  if (!tracked.values.empty()) data->status.push_back(std::move(tracked));
+void AddLeader(const RunRecord& record, ReportData* data) {
+  for (const FrameReport& frame : record.frames) {
+    if (frame.source != FrameSource::kScan) continue;
+    const double seconds = SecondsBetween(data->start, frame.stamp);
+    std::vector<ReportSpan>& spans = data->leader;
+    const std::string name = frame.leader.empty() ? "nothing" : frame.leader;
+    if (!spans.empty()) spans.back().to = seconds;
+    if (spans.empty() || spans.back().name != name) spans.push_back({name, seconds, seconds});
+  }
+  std::vector<ReportSeries> degenerate;
+  AppendSeries(
+      "degenerate directions", FrameSource::kScan, record, data->start,
+      [](const FrameReport& frame) { return frame.degenerate_directions; }, &degenerate);
+  if (!degenerate.empty()) data->degenerate = degenerate.front();
+}
+
+void AddFeatures(const RunRecord& record, ReportData* data) {
+  const auto add = [&](const char* name, auto value) {
+    AppendSeries(name, FrameSource::kImage, record, data->start, value, &data->features);
+  };
+  add("tracked", [](const FrameReport& frame) { return frame.features.tracked; });
+  add("new", [](const FrameReport& frame) { return frame.features.started; });
+  add("recovered", [](const FrameReport& frame) { return frame.features.recovered; });
+  add("rejected", [](const FrameReport& frame) { return frame.features.rejected; });
+}
+
+/// Time of every stage of the scans or of the images, one on top of the other.
+ReportGroup StageTimes(const char* title, FrameSource source, const RunRecord& record,
+                       TimeNs start) {
+  ReportGroup group{title, "ms", true, {}};
+  std::vector<std::string> names;
+  for (const FrameReport& frame : record.frames) {
+    if (frame.source != source) continue;
+    for (const StageTime& stage : frame.stages) {
+      if (std::find(names.begin(), names.end(), stage.name) == names.end()) {
+        names.emplace_back(stage.name);
+      }
+    }
+  }
+  for (const std::string& name : names) {
+    AppendSeries(
+        name, source, record, start,
+        [&](const FrameReport& frame) {
+          double total = 0.0;
+          for (const StageTime& stage : frame.stages) {
+            total += name == stage.name ? stage.milliseconds : 0.0;
+          }
+          return total;
+        },
+        &group.series);
+  }
+  return group;
+}
+
+ReportGroup Matching(const RunRecord& record, TimeNs start) {
+  ReportGroup group{"Points of a scan", "points", false, {}};
+  AppendSeries(
+      "matched with the map", FrameSource::kScan, record, start,
+      [](const FrameReport& frame) { return frame.matches; }, &group.series);
+  AppendSeries(
+      "of them inliers", FrameSource::kScan, record, start,
+      [](const FrameReport& frame) { return frame.inliers; }, &group.series);
+  return group;
+}
+
+ReportGroup Uncertainty(const RunRecord& record, TimeNs start) {
+  ReportGroup group{"Standard deviation that the estimator states", "m, °", false, {}};
+  AppendSeries(
+      "position, m", FrameSource::kScan, record, start,
+      [](const FrameReport& frame) {
+        return std::sqrt(frame.covariance.bottomRightCorner<3, 3>().trace());
+      },
+      &group.series);
+  AppendSeries(
+      "attitude, °", FrameSource::kScan, record, start,
+      [](const FrameReport& frame) {
+        return std::sqrt(frame.covariance.topLeftCorner<3, 3>().trace()) * 180.0 / M_PI;
+      },
+      &group.series);
+  return group;
+}
+
+/// Processor seconds a second of the recording: the cores that it would keep busy at its own pace.
+ReportGroup Load(const std::vector<LoadSample>& load, TimeNs start) {
+  ReportGroup group{"Load at the recording's own pace", "cores", false, {{"cores", {}, {}}}};
+  for (size_t i = 1; i < load.size(); ++i) {
+    const double step = SecondsBetween(load[i - 1].time, load[i].time);
+    if (!(step > 0.0)) continue;
+    group.series[0].seconds.push_back(SecondsBetween(start, load[i].time));
+    group.series[0].values.push_back((load[i].cpu_seconds - load[i - 1].cpu_seconds) / step);
+  }
+  return group;
+}
+
+ReportGroup Memory(const std::vector<LoadSample>& load, TimeNs start) {
+  ReportGroup group{"Memory", "MB", false, {{"resident", {}, {}}}};
+  for (const LoadSample& sample : load) {
+    group.series[0].seconds.push_back(SecondsBetween(start, sample.time));
+    group.series[0].values.push_back(sample.memory_mb);
+  }
+  return group;
+}
+
+void AddGroups(const RunRecord& record, ReportData* data) {
+  const TimeNs start = data->start;
+  for (ReportGroup& group : std::vector<ReportGroup>{
+           StageTimes("Time of a scan by stage", FrameSource::kScan, record, start),
+           StageTimes("Time of an image by stage", FrameSource::kImage, record, start),
+           Matching(record, start), Uncertainty(record, start), Load(record.samples.load, start),
+           Memory(record.samples.load, start)}) {
+    const bool is_empty = group.series.empty() || group.series.front().values.empty();
+    if (!is_empty) data->groups.push_back(std::move(group));
+  }
+}
+
+std::vector<ReportItem> SummaryItems(const RunSetup& setup, const SlamSystem& system,
+                                     const RunRecord& record) {
+  const KeyframeCounts counts = system.keyframe_counts();
+  std::vector<ReportItem> items = {
+      {"complete", record.complete ? "yes" : "no: the run was ended early"},
+      {"recording", setup.identity.path},
+      {"length of the recording", Text("%.1f s", record.recording_seconds)},
+      {"scans", std::to_string(system.scans_seen())},
+      {"poses", std::to_string(system.trajectory().size())}};
+  if (system.images_seen() > 0) {
+    items.push_back({"images tracked", std::to_string(system.images_seen()) + ", by " +
+                                           setup.pipeline.features.frontend});
+    items.push_back({"features tracked, median", Text("%.0f", MedianTracked(record.frames))});
+  }
+  if (counts.keyframes > 0) {
+    items.push_back({"keyframes", std::to_string(counts.keyframes)});
+    items.push_back({"loops", std::to_string(counts.loops_accepted) + " accepted, " +
+                                  std::to_string(counts.loops_rejected) + " refused"});
+  }
+  items.push_back({"wall time", Text("%.1f s", record.wall_seconds)});
+  items.push_back({"processor time", Text("%.1f s", record.cpu_seconds)});
+  items.push_back({"peak memory", Text("%.0f MB", record.peak_rss_mb)});
+  items.push_back({"frame of the trajectories", setup.frame});
+  items.push_back({"version", ProgramVersion()});
+  for (const std::string& notice : record.notices) items.push_back({"notice", notice});
+  return items;
+}
+
+std::string TitleOf(const std::string& recording) {
+  const std::filesystem::path path = std::filesystem::path(recording).lexically_normal();
+  return path.has_filename() ? path.filename().string() : path.parent_path().filename().string();
 }
 
 }  // namespace
@@ -82,33 +256,36 @@ void AddStatus(const std::vector<FrameReport>& frames, ReportData* data) {
 ReportData ReportOf(const RunSetup& setup, const SlamSystem& system, const RunRecord& record,
                     const std::optional<Evaluation>& evaluation) {
   ReportData data;
-  data.title = setup.identity.path;
+  data.title = TitleOf(setup.identity.path);
   data.pipeline = setup.pipeline.name;
-  const double factor =
-      record.wall_seconds > 0.0 ? record.recording_seconds / record.wall_seconds : 0.0;
-  const Trajectory trajectory = system.trajectory();
-  data.highlights = {{"distance", Text("%.1f m", trajectory.Length())},
-                     {"real-time factor", Text("%.1f ×", factor)}};
-  for (const StampedPose& pose : trajectory.poses()) data.estimate.push_back(pose);
-  if (evaluation && !data.estimate.empty()) {
-    AddError(*evaluation, data.estimate.front().time, &data);
+  data.start = FirstStamp(record.frames);
+  for (const FrameReport& frame : record.frames) {
+    data.duration = std::max(data.duration, SecondsBetween(data.start, frame.stamp));
   }
-  data.summary = {{"complete", record.complete ? "yes" : "no: the run was ended early"},
-                  {"recording", Text("%.1f s", record.recording_seconds)},
-                  {"scans", std::to_string(system.scans_seen())},
-                  {"poses", std::to_string(trajectory.size())},
-                  {"images tracked", std::to_string(system.images_seen())},
-                  {"wall time", Text("%.1f s", record.wall_seconds)},
-                  {"processor time", Text("%.1f s", record.cpu_seconds)},
-                  {"peak memory", Text("%.0f MB", record.peak_rss_mb)},
-                  {"frame", setup.frame}};
-  for (const std::string& notice : record.notices) data.summary.push_back({"notice", notice});
+  const Trajectory trajectory = system.trajectory();
+  for (const StampedPose& pose : trajectory.poses()) data.estimate.push_back(pose);
+  data.highlights = {{"distance", Text("%.1f m", trajectory.Length())}};
+  if (evaluation && !data.estimate.empty()) AddError(*evaluation, &data);
+  if (record.wall_seconds > 0.0) {
+    data.highlights.push_back(
+        {"real-time factor", Text("%.1f ×", record.recording_seconds / record.wall_seconds)});
+  }
+  if (system.images_seen() > 0) {
+    data.highlights.push_back({"features tracked", Text("%.0f", MedianTracked(record.frames))});
+  }
+  data.highlights.push_back({"memory", Text("%.0f MB", record.peak_rss_mb)});
+  data.summary = SummaryItems(setup, system, record);
   data.configuration = ResolvedConfiguration(setup);
   AddMap(system, &data);
   for (const StageSummary& stage : SummariseStages(record.frames)) {
-    data.stages.push_back({stage.name, stage.median_ms, stage.p99_ms});
+    const bool of_image = stage.name.rfind("features_", 0) == 0;
+    data.stages.push_back(
+        {(of_image ? "image: " : "") + StageName(stage.name), stage.median_ms, stage.p99_ms});
   }
-  AddStatus(record.frames, &data);
+  AddFeatures(record, &data);
+  AddLeader(record, &data);
+  AddGroups(record, &data);
+  data.frames = SampleFrames(setup, record.samples.images, data.start);
   return data;
 }
 

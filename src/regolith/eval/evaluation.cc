@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/eval/evaluation.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -10,6 +11,7 @@
 #include "regolith/core/error.h"
 #include "regolith/eval/association.h"
 #include "regolith/eval/pose_error.h"
+#include "regolith/eval/trajectory_alignment.h"
 
 namespace regolith {
 namespace {
@@ -64,12 +66,6 @@ std::vector<PosePair> Associate(const NamedPoses& reference, const NamedPoses& e
   return pairs;
 }
 
-std::vector<Eigen::Vector3d> Positions(Span<const StampedPose> poses) {
-  std::vector<Eigen::Vector3d> positions;
-  for (const StampedPose& pose : poses) positions.push_back(pose.T_world_body.translation);
-  return positions;
-}
-
 std::vector<SE3> Poses(Span<const StampedPose> stamped) {
   std::vector<SE3> poses;
   for (const StampedPose& pose : stamped) poses.push_back(pose.T_world_body);
@@ -77,10 +73,7 @@ std::vector<SE3> Poses(Span<const StampedPose> stamped) {
 }
 
 Alignment Align(const Evaluation& evaluation, const std::string& name, AlignmentMode mode) {
-  if (mode == AlignmentMode::kNone) return {};
-  const std::vector<Eigen::Vector3d> source = Positions(evaluation.estimate);
-  const std::vector<Eigen::Vector3d> target = Positions(evaluation.reference);
-  const auto alignment = AlignPoints(source, target, mode == AlignmentMode::kSim3);
+  const auto alignment = AlignTrajectory(evaluation.reference, evaluation.estimate, mode);
   if (!alignment) {
     throw InputError(name,
                      "its positions or those of the reference lie on one line, so that no rotation "
@@ -112,6 +105,49 @@ void MeasureAbsolute(const std::vector<SE3>& reference, const std::vector<SE3>& 
   for (double& angle : evaluation->ape_deg) angle *= kDegreesPerRadian;
 }
 
+double YawOf(const SE3& pose) {
+  const Eigen::Vector3d forward = pose.rotation * Eigen::Vector3d::UnitX();
+  return std::atan2(forward.y(), forward.x());
+}
+
+void MeasureAxes(const std::vector<SE3>& reference, const std::vector<SE3>& estimate,
+                 Evaluation* evaluation) {
+  std::array<std::vector<double>, 3> axes;
+  std::vector<double> yaw;
+  double distance = 0.0;
+  for (size_t i = 0; i < reference.size(); ++i) {
+    if (i > 0) distance += (reference[i].translation - reference[i - 1].translation).norm();
+    const Eigen::Vector3d offset = estimate[i].translation - reference[i].translation;
+    const double turn =
+        std::remainder(YawOf(estimate[i]) - YawOf(reference[i]), 2.0 * M_PI) * kDegreesPerRadian;
+    evaluation->distance_m.push_back(distance);
+    evaluation->offsets_m.push_back(offset);
+    evaluation->yaw_deg.push_back(turn);
+    for (int axis = 0; axis < 3; ++axis) {
+      axes[static_cast<size_t>(axis)].push_back(std::abs(offset[axis]));
+    }
+    yaw.push_back(std::abs(turn));
+  }
+  for (size_t axis = 0; axis < 3; ++axis) {
+    evaluation->axes[axis] = ComputeErrorStatistics(axes[axis]);
+  }
+  evaluation->yaw = ComputeErrorStatistics(yaw);
+}
+
+/// Of associated poses and the reference that they were taken from.
+double TimeCoverage(Span<const StampedPose> reference, const std::vector<StampedPose>& matched) {
+  const double whole = SecondsBetween(reference.front().time, reference.back().time);
+  if (!(whole > 0.0)) return 1.0;
+  std::vector<double> intervals;
+  for (size_t i = 1; i < matched.size(); ++i) {
+    intervals.push_back(SecondsBetween(matched[i - 1].time, matched[i].time));
+  }
+  const double longest = std::max(1.0, 3.0 * ComputeErrorStatistics(intervals).median);
+  double covered = 0.0;
+  for (const double interval : intervals) covered += interval <= longest ? interval : 0.0;
+  return std::min(1.0, covered / whole);
+}
+
 void MeasureRelative(const std::vector<SE3>& reference, const std::vector<SE3>& estimate,
                      const EvaluationOptions& options, Evaluation* evaluation) {
   const std::vector<SegmentEnds> steps = ConsecutivePairs(reference.size());
@@ -141,6 +177,8 @@ Evaluation EvaluateTrajectory(const NamedPoses& reference, const NamedPoses& est
     evaluation.estimate.push_back(estimate.poses[pair.estimate]);
   }
   evaluation.matched = evaluation.reference.size();
+  evaluation.fitted_scale = FitScale(evaluation.reference, evaluation.estimate);
+  evaluation.time_coverage = TimeCoverage(reference.poses, evaluation.reference);
   evaluation.alignment = Align(evaluation, estimate.name, options.alignment);
   ApplyAlignment(evaluation.alignment, &evaluation.estimate);
 
@@ -148,7 +186,24 @@ Evaluation EvaluateTrajectory(const NamedPoses& reference, const NamedPoses& est
   const std::vector<SE3> estimate_poses = Poses(evaluation.estimate);
   MeasureAbsolute(reference_poses, estimate_poses, &evaluation);
   MeasureRelative(reference_poses, estimate_poses, options, &evaluation);
+  MeasureAxes(reference_poses, estimate_poses, &evaluation);
   return evaluation;
+}
+
+const char* AlignmentName(AlignmentMode mode) {
+  switch (mode) {
+    case AlignmentMode::kSe3:
+      return "se3";
+    case AlignmentMode::kSim3:
+      return "sim3";
+    case AlignmentMode::kYaw:
+      return "yaw";
+    case AlignmentMode::kOrigin:
+      return "origin";
+    case AlignmentMode::kNone:
+      break;
+  }
+  return "none";
 }
 
 std::vector<StampedPose> ReferenceInEstimateFrame(Span<const StampedPose> reference,

@@ -8,8 +8,10 @@ namespace regolith {
 
 /// How an estimate is laid over its reference before their difference is measured.
 enum class AlignmentMode {
-  kSe3,   ///< rotation and translation
-  kSim3,  ///< rotation, translation and scale
+  kSe3,     ///< rotation and translation
+  kSim3,    ///< rotation, translation and scale
+  kYaw,     ///< rotation about z and translation: what gravity leaves unknown
+  kOrigin,  ///< the first associated poses are laid together
   kNone,
 };
 

@@ -75,6 +75,36 @@ TEST(Evaluation, HasNoDriftOnAPathBelowTenMetres) {
   EXPECT_FALSE(evaluation.rotation_deg_per_m.has_value());
 }
 
+TEST(Evaluation, TellsAxesAndHeadingApart) {
+  const std::vector<StampedPose> reference = Circle(60);
+  std::vector<StampedPose> estimate = reference;
+  for (size_t i = 0; i < estimate.size(); ++i) {
+    SE3& pose = estimate[i].T_world_body;
+    pose.translation += Eigen::Vector3d(0.3, -0.2, i % 2 == 0 ? 0.1 : -0.1);
+    pose.rotation = ExpSo3({0.0, 0.0, i == 7 ? 3.1 : 0.05}) * pose.rotation;
+  }
+  EvaluationOptions options;
+  options.alignment = AlignmentMode::kNone;
+  const Evaluation evaluation = EvaluateTrajectory({"r", reference}, {"e", estimate}, options);
+  EXPECT_NEAR(evaluation.axes[0].rmse, 0.3, 1e-12);
+  EXPECT_NEAR(evaluation.axes[1].max, 0.2, 1e-12);
+  EXPECT_NEAR(evaluation.axes[2].mean, 0.1, 1e-12);
+  EXPECT_NEAR(evaluation.offsets_m[3].z(), -0.1, 1e-12);
+  EXPECT_NEAR(evaluation.yaw_deg[3], 0.05 * 180.0 / M_PI, 1e-9);
+  EXPECT_NEAR(evaluation.yaw.max, 3.1 * 180.0 / M_PI, 1e-9);
+  EXPECT_NEAR(*evaluation.fitted_scale, 1.0, 1e-3);
+  EXPECT_NEAR(evaluation.distance_m.back(), evaluation.length_m, 1e-9);
+  EXPECT_NEAR(evaluation.time_coverage, 1.0, 1e-12);
+}
+
+TEST(Evaluation, CoverageLeavesOutWhereTheEstimateWasLost) {
+  const std::vector<StampedPose> reference = Circle(101);
+  std::vector<StampedPose> estimate = reference;
+  estimate.erase(estimate.begin() + 21, estimate.begin() + 60);
+  const Evaluation evaluation = EvaluateTrajectory({"r", reference}, {"e", estimate}, {});
+  EXPECT_NEAR(evaluation.time_coverage, 0.6, 1e-9);
+}
+
 TEST(Evaluation, SaysWhatIsWrongWithTheFiles) {
   const std::vector<StampedPose> good = Circle(20);
   EXPECT_EQ(ErrorOf(good, good), "");

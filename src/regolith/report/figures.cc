@@ -16,9 +16,9 @@ namespace {
 
 constexpr int kDecimals = 6;
 
-// Blue, orange, green, pink, grey, brown: apart for colour-blind readers too (Okabe, Ito 2008).
+// Blue, orange, green, pink, yellow, brown: apart for colour-blind readers too (Okabe, Ito 2008).
 constexpr const char* kColors[] = {"#0072b2", "#d55e00", "#009e73",
-                                   "#cc79a7", "#666666", "#8c6d1f"};
+                                   "#cc79a7", "#e69f00", "#8c6d1f"};
 
 void AppendRow(double first, double second, std::string* data) {
   AppendNumber(first, kDecimals, data);
@@ -27,24 +27,10 @@ void AppendRow(double first, double second, std::string* data) {
   *data += '\n';
 }
 
-/// A plot command of the blocks of FILE.dat, one a name.
-std::string PlotCommand(const std::string& file, const std::vector<std::string>& names) {
-  std::string command = "plot ";
-  for (size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) command += ", \\\n     ";
-    command += Concatenate("'", file, ".dat' index ", i, " using 1:2 with lines lw 2 lc rgb '",
-                           kColors[i % std::size(kColors)], "' title ", QuoteGnuplot(names[i]));
-  }
-  return command + "\n";
-}
-
 std::string Labels(const std::string& title, const std::string& x_label,
                    const std::string& y_label) {
-  return "set title " + QuoteGnuplot(title) + "\nset xlabel " + QuoteGnuplot(x_label) +
-         "\nset ylabel " + QuoteGnuplot(y_label) +
-         "\nset datafile missing 'null'\nset grid lc rgb '#dddddd' lt 1\nset key outside top "
-         "center "
-         "horizontal\n";
+  return FigureStyle() + "set title " + QuoteGnuplot(title) + "\nset xlabel " +
+         QuoteGnuplot(x_label) + "\nset ylabel " + QuoteGnuplot(y_label) + "\n";
 }
 
 /// The picture takes the shape of what it shows, within bounds.
@@ -65,8 +51,35 @@ GnuplotSize SizeFor(const std::vector<FigureTrajectory>& trajectories) {
 
 }  // namespace
 
+std::vector<std::string> FigureColors(const std::vector<std::string>& names) {
+  std::vector<std::string> colors;
+  size_t next = 0;
+  for (const std::string& name : names) {
+    colors.push_back(name == "reference" ? "#444444" : kColors[next++ % std::size(kColors)]);
+  }
+  return colors;
+}
+
+std::string FigureStyle() {
+  return "set datafile missing 'null'\nset grid lc rgb '#dddddd' lt 1\n"
+         "set key outside top center horizontal\n";
+}
+
+std::string PlotLines(const std::string& file, const std::vector<std::string>& names,
+                      const std::string& columns) {
+  const std::vector<std::string> colors = FigureColors(names);
+  std::string command = "plot ";
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) command += ", \\\n     ";
+    command +=
+        Concatenate("'", file, ".dat' index ", i, " using ", columns, " with lines lw 2 lc rgb '",
+                    colors[i], "' title ", QuoteGnuplot(names[i]));
+  }
+  return command + "\n";
+}
+
 bool DrawTrajectories(const std::string& folder, const std::string& title,
-                      const std::vector<FigureTrajectory>& trajectories) {
+                      const std::vector<FigureTrajectory>& trajectories, const std::string& name) {
   REGOLITH_CHECK(!trajectories.empty(), "no trajectories");
   std::string data = "# x_m y_m; one block a trajectory\n";
   std::vector<std::string> names;
@@ -79,15 +92,15 @@ bool DrawTrajectories(const std::string& folder, const std::string& title,
     }
   }
   return DrawWithGnuplot(
-      folder, "trajectory", data,
-      Labels(title, "x, m", "y, m") + "set size ratio -1\n" + PlotCommand("trajectory", names),
+      folder, name, data,
+      Labels(title, "x, m", "y, m") + "set size ratio -1\n" + PlotLines(name, names, "1:2"),
       SizeFor(trajectories));
 }
 
-bool DrawSeries(const std::string& folder, const std::string& name, const std::string& title,
-                const std::string& value_label, const std::vector<FigureSeries>& series) {
+bool DrawSeries(const std::string& folder, const std::string& name, const FigureLabels& labels,
+                const std::vector<FigureSeries>& series) {
   REGOLITH_CHECK(!series.empty(), "no series");
-  std::string data = "# seconds value; one block a series\n";
+  std::string data = "# " + labels.x + "; " + labels.y + "; one block a series\n";
   std::vector<std::string> names;
   for (const FigureSeries& one : series) {
     REGOLITH_CHECK(one.seconds.size() == one.values.size(), one.name);
@@ -96,10 +109,11 @@ bool DrawSeries(const std::string& folder, const std::string& name, const std::s
     data += "# " + one.name + "\n";
     for (size_t i = 0; i < one.values.size(); ++i) AppendRow(one.seconds[i], one.values[i], &data);
   }
-  return DrawWithGnuplot(
-      folder, name, data,
-      Labels(title, "time, s", value_label) + "set yrange [0:*]\n" + PlotCommand(name, names),
-      GnuplotSize());
+  return DrawWithGnuplot(folder, name, data,
+                         Labels(labels.title, labels.x, labels.y) +
+                             (labels.from_zero ? "set yrange [0:*]\n" : "") +
+                             PlotLines(name, names, "1:2"),
+                         GnuplotSize());
 }
 
 }  // namespace regolith

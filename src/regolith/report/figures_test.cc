@@ -52,7 +52,8 @@ TEST_F(FiguresTest, LeavesDataAndScriptBesidePictures) {
   if (!drawn) GTEST_SKIP() << "SKIPPED: gnuplot is not installed, pictures were not checked";
   EXPECT_THAT(Text("trajectory.png"), HasSubstr("PNG"));
   EXPECT_THAT(Text("trajectory.svg"), HasSubstr("<svg"));
-  ASSERT_TRUE(DrawSeries(folder_, "ape", "Error", "m", {{"run", {0.0, 1.0}, {0.1, 0.2}}}));
+  ASSERT_TRUE(DrawSeries(folder_, "ape", {"Error", "time, s", "m", true},
+                         {{"run", {0.0, 1.0}, {0.1, 0.2}}}));
   EXPECT_THAT(Text("ape.svg"), HasSubstr("<svg"));
 }
 

@@ -25,13 +25,15 @@ void WriteText(const std::string& path, const std::string& text) {
   if (!stream) throw OutputError(path, std::string("cannot be written: ") + std::strerror(errno));
 }
 
-/// The script draws twice: into the PNG and, by `replot`, into the SVG.
+/// The script draws everything twice, into the PNG and into the SVG; `replot` would not draw
+/// several plots on a page again.
 std::string Script(const std::string& name, const std::string& commands, const GnuplotSize& size) {
   const std::string style =
       Concatenate(" size ", size.width, ",", size.height, " font 'sans,14' noenhanced");
-  return "# gnuplot " + name + ".gp\nset terminal pngcairo" + style + "\nset output '" + name +
-         ".png'\n" + commands + "set terminal svg" + style + " background 'white'\nset output '" +
-         name + ".svg'\nreplot\n";
+  return "# gnuplot " + name + ".gp\ndo for [type in 'png svg'] {\nreset\nif (type eq 'png') {\n" +
+         "set terminal pngcairo" + style + "\n} else {\nset terminal svg" + style +
+         " background 'white'\n}\nset output '" + name + ".'.type\n" + commands +
+         "unset output\n}\n";
 }
 
 /// Runs `gnuplot SCRIPT` inside `folder`; its exit status, or 127 where it cannot be started.

@@ -30,5 +30,20 @@ TEST(HtmlText, NumbersAreShortAndNeverNan) {
   EXPECT_EQ(Number(INFINITY, 2), "null");
 }
 
+TEST(HtmlText, EncodesBytes) {
+  const auto encoded = [](const std::string& text) {
+    return Base64({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  };
+  // RFC 4648, section 10.
+  EXPECT_EQ(encoded(""), "");
+  EXPECT_EQ(encoded("f"), "Zg==");
+  EXPECT_EQ(encoded("fo"), "Zm8=");
+  EXPECT_EQ(encoded("foo"), "Zm9v");
+  EXPECT_EQ(encoded("foob"), "Zm9vYg==");
+  EXPECT_EQ(encoded("fooba"), "Zm9vYmE=");
+  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(encoded("\xff\xfe"), "//4=");
+}
+
 }  // namespace
 }  // namespace regolith

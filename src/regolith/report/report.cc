@@ -3,20 +3,21 @@
 #include "regolith/report/report.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
-#include <functional>
+#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "regolith/core/check.h"
 #include "regolith/report/html_text.h"
-#include "regolith/report/report_template.h"
+#include "regolith/report/report_assets.h"
+#include "regolith/report/report_map.h"
+#include "regolith/report/report_script.h"
 
 namespace regolith {
 namespace {
 
-// Lines longer than this are drawn from every n-th pose: truth has 100 a second.
-constexpr size_t kLinePoints = 20000;
-constexpr int kMillimetres = 3;
+constexpr int kJpegQuality = 82;
 
 std::string ReadWhole(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
@@ -25,98 +26,16 @@ std::string ReadWhole(const std::string& path) {
   return text.str();
 }
 
-/// "name:[...]," of `count` numbers, evenly thinned to `limit`.
-void AppendArray(const char* name, size_t count, size_t limit, int decimals,
-                 const std::function<double(size_t)>& value, std::string* script) {
-  const size_t shown = std::min(count, limit);
-  *script += name;
-  *script += ":[";
-  for (size_t i = 0; i < shown; ++i) {
-    if (i > 0) *script += ',';
-    AppendNumber(value(i * count / shown), decimals, script);
-  }
-  *script += "],";
+std::string NumberText(double value, int decimals) {
+  std::string text;
+  AppendNumber(value, decimals, &text);
+  return text;
 }
 
-void AppendTrajectory(const char* name, const std::vector<StampedPose>& poses, TimeNs start,
-                      std::string* script) {
-  constexpr const char* kAxes[] = {"x", "y", "z"};
-  *script += std::string(name) + ":{";
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto coordinate = [&](size_t i) { return poses[i].T_world_body.translation[axis]; };
-    AppendArray(kAxes[axis], poses.size(), kLinePoints, kMillimetres, coordinate, script);
-  }
-  const auto seconds = [&](size_t i) { return SecondsBetween(start, poses[i].time); };
-  AppendArray("t", poses.size(), kLinePoints, 2, seconds, script);
-  *script += "},\n";
-}
-
-void AppendMap(const ReportData& data, std::string* script) {
-  constexpr const char* kAxes[] = {"x", "y", "z"};
-  const std::vector<ReportMapPoint>& map = data.map;
-  *script += "map:{name:" + QuoteScript(data.map_value_name) + ",";
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto coordinate = [&](size_t i) { return static_cast<double>(map[i].position[axis]); };
-    AppendArray(kAxes[axis], map.size(), kReportMapPoints, 2, coordinate, script);
-  }
-  const auto value = [&](size_t i) { return static_cast<double>(map[i].value); };
-  AppendArray("value", map.size(), kReportMapPoints, 2, value, script);
-  *script += "},\n";
-}
-
-void AppendSeries(const ReportSeries& series, std::string* script) {
-  REGOLITH_CHECK(series.seconds.size() == series.values.size(), series.name, ": ",
-                 series.seconds.size(), " times, ", series.values.size(), " values");
-  *script += "{name:" + QuoteScript(series.name) + ",";
-  const size_t count = series.seconds.size();
-  AppendArray(
-      "t", count, kLinePoints, 3, [&](size_t i) { return series.seconds[i]; }, script);
-  AppendArray(
-      "v", count, kLinePoints, 5, [&](size_t i) { return series.values[i]; }, script);
-  *script += "}";
-}
-
-void AppendStages(const std::vector<ReportStage>& stages, std::string* script) {
-  *script += "stages:{names:[";
-  for (const ReportStage& stage : stages) *script += QuoteScript(stage.name) + ",";
-  *script += "],";
-  const size_t count = stages.size();
-  AppendArray(
-      "median", count, count, 3, [&](size_t i) { return stages[i].median_ms; }, script);
-  AppendArray(
-      "p99", count, count, 3, [&](size_t i) { return stages[i].p99_ms; }, script);
-  *script += "},\n";
-}
-
-/// The data as a JavaScript object.
-std::string DataScript(const ReportData& data) {
-  std::string script = "const data = {\n";
-  if (!data.estimate.empty()) {
-    AppendTrajectory("estimate", data.estimate, data.estimate.front().time, &script);
-  }
-  if (!data.reference.empty()) {
-    const TimeNs start =
-        data.estimate.empty() ? data.reference.front().time : data.estimate.front().time;
-    AppendTrajectory("reference", data.reference, start, &script);
-  }
-  if (!data.map.empty()) AppendMap(data, &script);
-  for (const auto& [name, series] :
-       {std::pair{"error", &data.error}, std::pair{"frame_ms", &data.frame_ms}}) {
-    if (!series->has_value()) continue;
-    script += std::string(name) + ":";
-    AppendSeries(**series, &script);
-    script += ",\n";
-  }
-  if (!data.stages.empty()) AppendStages(data.stages, &script);
-  if (!data.status.empty()) {
-    script += "status:[";
-    for (const ReportSeries& series : data.status) {
-      AppendSeries(series, &script);
-      script += ",";
-    }
-    script += "],\n";
-  }
-  return script + "};\n";
+std::string Fixed(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
 }
 
 std::string MapNote(const ReportData& data) {
@@ -142,23 +61,21 @@ std::vector<ReportItem> StatisticsItems(const ErrorStatistics& ape) {
        {std::pair{"RMSE", ape.rmse}, std::pair{"mean", ape.mean}, std::pair{"median", ape.median},
         std::pair{"standard deviation", ape.std}, std::pair{"minimum", ape.min},
         std::pair{"maximum", ape.max}}) {
-    std::string text;
-    AppendNumber(value, 4, &text);
-    items.push_back({name, text + " m"});
+    items.push_back({name, Fixed(value, 4) + " m"});
   }
   return items;
 }
 
-std::vector<ReportItem> StageItems(const std::vector<ReportStage>& stages) {
-  std::vector<ReportItem> items;
+std::string StageTable(const std::vector<ReportStage>& stages) {
+  std::string table =
+      "<table><thead><tr><th>stage</th><th class=\"number\">median, ms</th>"
+      "<th class=\"number\">99 %, ms</th></tr></thead>\n";
   for (const ReportStage& stage : stages) {
-    std::string text;
-    AppendNumber(stage.median_ms, 2, &text);
-    text += " ms, 99 %: ";
-    AppendNumber(stage.p99_ms, 2, &text);
-    items.push_back({stage.name, text + " ms"});
+    table += "<tr><th scope=\"row\">" + EscapeHtml(stage.name) + "</th><td class=\"number\">" +
+             Fixed(stage.median_ms, 2) + "</td><td class=\"number\">" + Fixed(stage.p99_ms, 2) +
+             "</td></tr>\n";
   }
-  return items;
+  return table + "</table>";
 }
 
 std::string Section(const std::string& title, const std::string& body,
@@ -172,7 +89,9 @@ std::string Figure(const std::string& id) {
 }
 
 std::string Header(const ReportData& data) {
-  std::string html = "<header><h1>" + EscapeHtml(data.title) + "</h1>\n<p>Pipeline <b>" +
+  std::string html = "<header><div class=\"title\"><h1>" + EscapeHtml(data.title) +
+                     "</h1><button id=\"theme\" type=\"button\" title=\"Light or dark\">◐</button>"
+                     "</div>\n<p class=\"subtitle\">Pipeline <b>" +
                      EscapeHtml(data.pipeline) + "</b></p>\n<div class=\"tiles\">";
   for (const ReportItem& item : data.highlights) {
     html += "<div class=\"tile\"><span>" + EscapeHtml(item.name) + "</span><b>" +
@@ -181,31 +100,96 @@ std::string Header(const ReportData& data) {
   return html + "</div></header>\n";
 }
 
+std::string SceneSection(const ReportData& data) {
+  return Section("Map and trajectory",
+                 "<div class=\"bar\" id=\"scene-bar\"></div>\n<div class=\"scene\" "
+                 "id=\"scene\"></div>\n<div class=\"play\" id=\"scene-play\"></div>\n"
+                 "<p class=\"note\">" +
+                     MapNote(data) +
+                     " Drag to turn, scroll or pinch to zoom, right-drag or two fingers to shift; "
+                     "click the path or a plot over time to go there.</p>",
+                 "wide");
+}
+
 std::string FigureSections(const ReportData& data) {
   std::string html;
   const bool has_path = !data.estimate.empty() || !data.reference.empty();
-  if (has_path || !data.map.empty()) {
-    html += Section("Map and trajectory",
-                    Figure("scene") + "<p class=\"note\">" + MapNote(data) +
-                        " Drag to turn, scroll or pinch to zoom, right-drag to shift.</p>",
-                    "wide");
-  }
+  if (has_path || !data.map.empty()) html += SceneSection(data);
   if (has_path) html += Section("From above", Figure("top"));
-  if (data.error) html += Section("Error over time", Figure("error"));
+  if (!data.errors.empty()) {
+    html += Section("Error against truth, aligned", Figure("errors"));
+  }
+  if (data.yaw_error) html += Section("Error of the heading", Figure("yaw"));
+  if (!data.features.empty()) html += Section("Features", Figure("features"));
+  if (!data.leader.empty()) {
+    html += Section("What led, and what was degenerate", Figure("leader"));
+  }
+  for (size_t i = 0; i < data.groups.size(); ++i) {
+    html += Section(data.groups[i].title, Figure(Concatenate("group_", i)));
+  }
   if (!data.stages.empty()) html += Section("Time of each stage", Figure("stages"));
-  if (data.frame_ms) html += Section("Time of each frame", Figure("frame_ms"));
-  if (!data.status.empty()) html += Section("Status", Figure("status"), "wide");
   return html;
+}
+
+/// Points as dots, their way to the next image as lines, over the picture.
+std::string FeatureOverlay(const ReportFrame& frame) {
+  std::string dots;
+  std::string ways;
+  const auto append = [](float value, std::string* text) {
+    AppendNumber(static_cast<double>(value), 1, text);
+    *text += ' ';
+  };
+  for (const ReportFeature& feature : frame.features) {
+    for (std::string* path : {&dots, &ways}) {
+      *path += 'M';
+      append(feature.pixel.x(), path);
+      append(feature.pixel.y(), path);
+    }
+    dots += "h0";
+    ways += 'L';
+    append(feature.next.x(), &ways);
+    append(feature.next.y(), &ways);
+  }
+  return Concatenate("<svg viewBox=\"0 0 ", frame.width, " ", frame.height,
+                     "\" preserveAspectRatio=\"none\"><path d=\"", ways,
+                     "\" stroke=\"#ffd43b\" stroke-width=\"1.4\" fill=\"none\"/><path d=\"", dots,
+                     "\" stroke=\"#ff6b3d\" stroke-width=\"4\" stroke-linecap=\"round\" "
+                     "fill=\"none\"/></svg>");
+}
+
+std::string FramesSection(const std::vector<ReportFrame>& frames) {
+  std::string html = "<div class=\"frames\">";
+  for (const ReportFrame& frame : frames) {
+    REGOLITH_CHECK(
+        frame.grey.size() == static_cast<size_t>(frame.width) * static_cast<size_t>(frame.height),
+        frame.grey.size(), " bytes of ", frame.width, " × ", frame.height);
+    const cv::Mat image(frame.height, frame.width, CV_8UC1,
+                        const_cast<uint8_t*>(frame.grey.data()));  // only read
+    std::vector<uint8_t> bytes;
+    cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+    html += "<figure data-time=\"" + NumberText(frame.seconds, 3) +
+            "\"><div class=\"picture\"><img alt=\"camera image\" " +
+            Concatenate("width=\"", frame.width, "\" height=\"", frame.height, "\" ") +
+            "src=\"data:image/jpeg;base64," + Base64(bytes) + "\">" + FeatureOverlay(frame) +
+            "</div><figcaption>" + EscapeHtml(frame.caption) + "</figcaption></figure>\n";
+  }
+  return Section("Sample frames with features", html + "</div>\n", "wide");
 }
 
 std::string TableSections(const ReportData& data) {
   std::string html;
   if (!data.summary.empty()) html += Section("Summary", Table(data.summary));
-  if (data.ape) html += Section("Absolute pose error", Table(StatisticsItems(*data.ape)));
-  if (!data.stages.empty()) html += Section("Stages, median", Table(StageItems(data.stages)));
+  std::string figures;
+  if (data.ape) {
+    figures += "<h3>Absolute pose error</h3>" + Table(StatisticsItems(*data.ape));
+  }
+  if (!data.stages.empty()) {
+    figures += "<h3>Stages</h3>" + StageTable(data.stages);
+  }
+  if (!figures.empty()) html += Section("Figures", figures);
   if (!data.configuration.empty()) {
     html += Section("Configuration",
-                    "<details><summary>Show all settings</summary><pre>" +
+                    "<details><summary>Show all settings, resolved</summary><pre>" +
                         EscapeHtml(data.configuration) + "</pre></details>",
                     "wide");
   }
@@ -219,7 +203,7 @@ std::string RenderReport(const ReportData& data, const std::string& plotly_path)
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
+      "<link rel=\"icon\" href=\"data:,\">\n<title>" +
       EscapeHtml(data.title) + "</title>\n<style>" + std::string(kReportStyle) +
       "</style></head>\n<body>\n" + Header(data) + "<main>\n";
   if (plotly.empty()) {
@@ -229,9 +213,12 @@ std::string RenderReport(const ReportData& data, const std::string& plotly_path)
   } else {
     html += FigureSections(data);
   }
+  if (!data.frames.empty()) html += FramesSection(data.frames);
   html += TableSections(data) + "</main>\n";
+  html += "<script>\n" + std::string(kThemeScript) + "</script>\n";
   if (!plotly.empty()) {
-    html += "<script>" + plotly + "</script>\n<script>\n" + DataScript(data) +
+    html += "<script>" + plotly + "</script>\n<script>\n" + ReportDataScript(data) +
+            "</script>\n<script>\n" + std::string(kSceneScript) + "</script>\n<script>\n" +
             std::string(kReportScript) + "</script>\n";
   }
   return html + "</body></html>\n";

@@ -33,12 +33,28 @@ ReportData SmallReport() {
     pose.T_world_body.translation.z() = 0.25;
     data.reference.push_back(pose);
   }
+  data.start = data.estimate.front().time;
+  data.duration = 4.9;
+  data.estimate_error.assign(50, 0.25);
   data.ape = ErrorStatistics();
   data.ape->rmse = 0.0625;
-  data.error = ReportSeries{"error, m", {0.0, 0.1, 0.2}, {0.01, std::nan(""), 0.03}};
+  data.errors = {{"APE", {0.0, 0.1, 0.2}, {0.01, std::nan(""), 0.03}}};
+  data.yaw_error = ReportSeries{"heading", {0.0, 0.1}, {0.5, -0.5}};
   data.map = {{{1.0F, 2.0F, 3.0F}, 3.0F}, {{4.0F, 5.0F, 6.5F}, 6.5F}};
   data.stages = {{"deskew", 1.5, 2.5}};
-  data.status = {{"inliers", {0.0, 1.0}, {900.0, 950.0}}};
+  data.features = {{"tracked", {0.0, 1.0}, {200.0, 210.0}}};
+  data.leader = {{"lidar+imu", 0.0, 3.0}, {"imu", 3.0, 4.9}};
+  data.degenerate = ReportSeries{"degenerate", {0.0, 3.0}, {0.0, 1.0}};
+  data.groups = {{"Matching", "points", false, {{"inliers", {0.0, 1.0}, {900.0, 950.0}}}}};
+  data.keyframes = {data.estimate.front()};
+  data.loops = {{data.estimate.back().time, {1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}};
+  ReportFrame frame;
+  frame.caption = "1 feature <here>";
+  frame.width = 8;
+  frame.height = 4;
+  frame.grey.assign(32, 90);
+  frame.features = {{{1.5F, 2.0F}, {3.0F, 2.5F}}};
+  data.frames = {frame};
   return data;
 }
 
@@ -64,7 +80,13 @@ TEST(Report, HoldsItsDataAndTheLibraryAndNothingFromANetwork) {
   EXPECT_THAT(html, HasSubstr("v:[0.01,null,0.03]"));
   EXPECT_THAT(html, HasSubstr("All 2 points"));
   EXPECT_THAT(html, HasSubstr("voxel_size: 0.4"));
-  EXPECT_THAT(html, Not(HasSubstr("src=")));
+  EXPECT_THAT(html, HasSubstr("1 feature &lt;here&gt;"));
+  EXPECT_THAT(html, HasSubstr("M1.5 2 L3 2.5 "));
+  EXPECT_THAT(html, HasSubstr("src=\"data:image/jpeg;base64,/9j/"));
+  EXPECT_THAT(html, HasSubstr("{name:\"imu\",from:3,to:4.9,}"));
+  EXPECT_THAT(html, HasSubstr("loops:[{from:[1,2,3],to:[4,5,6],t:4.9,}"));
+  EXPECT_THAT(html, HasSubstr("id=\"group_0\""));
+  EXPECT_THAT(html, Not(HasSubstr("src=\"http")));
   EXPECT_THAT(html, Not(HasSubstr("http")));
   EXPECT_EQ(html, RenderReport(SmallReport(), plotly.path()));
 }
@@ -74,16 +96,16 @@ TEST(Report, WithoutPlotlyHasTablesAndSaysWhy) {
   EXPECT_THAT(html, HasSubstr("plotly.min.js was not found at /nowhere/plotly.min.js"));
   EXPECT_THAT(html, HasSubstr("0.0625 m"));
   EXPECT_THAT(html, HasSubstr("deskew"));
-  EXPECT_THAT(html, Not(HasSubstr("<script")));
+  EXPECT_THAT(html, Not(HasSubstr("const data")));
 }
 
 TEST(Report, ThinsALargeMapAndSaysSo) {
   const FakePlotly plotly;
   ReportData data = SmallReport();
-  data.map.resize(250000);
+  data.map.resize(350000);
   const std::string html = RenderReport(data, plotly.path());
-  EXPECT_THAT(html, HasSubstr("thinned to 100000 of its 250000 points"));
-  EXPECT_LT(html.size(), 2'000'000U);
+  EXPECT_THAT(html, HasSubstr("thinned to 300000 of its 350000 points"));
+  EXPECT_LT(html.size(), 4'000'000U);
 }
 
 TEST(Report, OfNothingIsStillAPage) {
@@ -96,7 +118,7 @@ TEST(Report, OfNothingIsStillAPage) {
 TEST(Report, RefusesASeriesOfUnequalLengths) {
   const FakePlotly plotly;
   ReportData data = SmallReport();
-  data.error->values.pop_back();
+  data.errors.front().values.pop_back();
   EXPECT_THROW(RenderReport(data, plotly.path()), CheckError);
 }
 
