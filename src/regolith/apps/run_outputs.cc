@@ -100,7 +100,8 @@ std::string StatusTable(const std::vector<FrameReport>& frames) {
       "sigma_z_m,detected_features,recovered_features,rejected_features,new_features,mean_age,"
       "cells,"
       "cells_filled,threshold_rounds,threshold_min,threshold_median,threshold_max,weakest_ratio,"
-      "weakest_x,weakest_y,weakest_z,health,keyframe,landmarks,measured_distances,visual_outliers,visual_cost,slip,"
+      "weakest_x,weakest_y,weakest_z,health,keyframe,landmarks,measured_distances,visual_outliers,"
+      "visual_cost,slip,"
       "time_offset_s\n";
   for (const FrameReport& frame : frames) {
     text += SecondsText(frame.stamp) + "," + frame.leader;
