@@ -32,6 +32,9 @@ constexpr double kOutsidePairs = 3600.0;
 /// The cell has neither a result nor a failure that would last.
 constexpr const char* kInterrupted = "interrupted";
 
+/// Beside a recording that is whole: the version of the program that made it.
+constexpr const char* kWholeRecording = "recording.version";
+
 Json ReadJson(const fs::path& path) { return Json::parse(ReadFile(path.string())); }
 
 /// A failure that was met by this very program; another one tries again.
@@ -160,12 +163,16 @@ std::string CellMaker::MatchFolder(const Scene& scene, uint64_t seed) const {
   return Concatenate(arguments_.out, "/matches/", scene.scenario, "_", seed);
 }
 
-/// Makes the recording of a scene; why that failed, or nothing.
+/// Makes the recording of a scene, where an interrupted reproduction has not left it; why that
+/// failed, or nothing.
 std::string CellMaker::SimulateFailure(const Scene& scene, uint64_t seed) {
   const fs::path folder = SceneFolder(scene, seed);
   const fs::path recording = folder / "recording";
+  const fs::path whole = folder / kWholeRecording;
   const std::string log = (folder / "simulate.log").string();
+  if (fs::exists(whole) && ReadFile(whole.string()) == ProgramVersion()) return "";
   RemoveAll(recording);
+  fs::remove(whole);
   fs::remove(log);
   Say(Concatenate("simulate ", scene.scenario, ", seed ", seed));
   std::vector<std::string> command = {program_,     "simulate",
@@ -183,6 +190,7 @@ std::string CellMaker::SimulateFailure(const Scene& scene, uint64_t seed) {
   if (!result.Succeeded()) return "simulate: " + FailureReason(result, log);
   fs::copy_file(recording / "ground_truth.tum", folder / "ground_truth.tum",
                 fs::copy_options::overwrite_existing);
+  WriteFile(whole.string(), ProgramVersion());
   return "";
 }
 
@@ -302,7 +310,7 @@ std::vector<TrackCell> CellMaker::MakeTracks(const Scene& scene, uint64_t seed) 
   }
   if (missing.empty()) return cells;
   const std::string recording = (folder / "recording").string();
-  const std::string failure = SimulateFailure(scene, seed);
+  const std::string failure = StopRequested() ? kInterrupted : SimulateFailure(scene, seed);
   for (const size_t i : missing) {
     const TrackMethod& method = plan_.tracks[i];
     cells[i].failure = StopRequested() ? kInterrupted : failure;
@@ -314,13 +322,19 @@ std::vector<TrackCell> CellMaker::MakeTracks(const Scene& scene, uint64_t seed) 
     std::snprintf(error, sizeof error, "APE RMSE %.3f m", cells[i].ape_rmse);
     Say("  " + (worked ? std::string(error) : "failed: " + cells[i].failure));
   }
-  if (failure != kInterrupted) RemoveAll(recording);
+  if (StopRequested()) return cells;  // the recording waits for the next call
+  RemoveAll(recording);
+  fs::remove(folder / kWholeRecording);
   return cells;
 }
 
 bool CellMaker::PairsAreThere(const Scene& scene, uint64_t seed, std::string* failure) {
   const fs::path folder = MatchFolder(scene, seed);
   if (fs::exists(folder / "pairs" / "index.csv")) return true;
+  if (StopRequested()) {
+    *failure = kInterrupted;
+    return false;
+  }
   const fs::path working = folder / "simulated";
   RemoveAll(working);
   fs::create_directories(folder);

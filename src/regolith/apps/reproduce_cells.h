@@ -50,7 +50,7 @@ class CellMaker {
   const std::string& out() const { return arguments_.out; }
 
   /// All cells of one scene and seed; the recording is simulated where one of them is missing, and
-  /// deleted afterwards.
+  /// deleted afterwards. Interrupted, it stays for the next call.
   std::vector<TrackCell> MakeTracks(const Scene& scene, uint64_t seed);
 
   /// By method, the image pairs of one scene and seed.

@@ -103,20 +103,65 @@ void AddMap(const SlamSystem& system, ReportData* data) {
   data->map_total = points.size();
 }
 
+void ExtendSpan(const std::string& name, double seconds, std::vector<ReportSpan>* spans) {
+  if (!spans->empty()) spans->back().to = seconds;
+  if (spans->empty() || spans->back().name != name) spans->push_back({name, seconds, seconds});
+}
+
+/// Of scans which subsystem led; without scans the health of visual odometry.
 void AddLeader(const RunRecord& record, ReportData* data) {
+  std::vector<ReportSpan> health;
   for (const FrameReport& frame : record.frames) {
-    if (frame.source != FrameSource::kScan) continue;
     const double seconds = SecondsBetween(data->start, frame.stamp);
-    std::vector<ReportSpan>& spans = data->leader;
-    const std::string name = frame.leader.empty() ? "nothing" : frame.leader;
-    if (!spans.empty()) spans.back().to = seconds;
-    if (spans.empty() || spans.back().name != name) spans.push_back({name, seconds, seconds});
+    if (frame.source == FrameSource::kScan) {
+      ExtendSpan(frame.leader.empty() ? "nothing" : frame.leader, seconds, &data->leader);
+    } else if (frame.visual) {
+      ExtendSpan(VioHealthName(frame.visual->health), seconds, &health);
+    }
   }
+  if (data->leader.empty()) data->leader = health;
   std::vector<ReportSeries> degenerate;
   AppendSeries(
       "degenerate directions", FrameSource::kScan, record, data->start,
       [](const FrameReport& frame) { return frame.degenerate_directions; }, &degenerate);
   if (!degenerate.empty()) data->degenerate = degenerate.front();
+}
+
+/// Where visual odometry has set keyframes, as their places are known now.
+void AddKeyframes(const RunRecord& record, const Trajectory& trajectory, ReportData* data) {
+  for (const FrameReport& frame : record.frames) {
+    if (!frame.visual || !frame.visual->is_keyframe) continue;
+    const auto T_world_body = trajectory.At(frame.stamp);
+    if (T_world_body) data->keyframes.push_back({frame.stamp, *T_world_body});
+  }
+}
+
+/// A value of visual odometry, NaN where it said nothing.
+template <typename Value>
+void AppendVisual(const std::string& name, const RunRecord& record, TimeNs start, Value value,
+                  std::vector<ReportSeries>* list) {
+  const bool has_any =
+      std::any_of(record.frames.begin(), record.frames.end(),
+                  [](const FrameReport& frame) { return frame.visual.has_value(); });
+  if (!has_any) return;
+  AppendSeries(
+      name, FrameSource::kImage, record, start,
+      [&](const FrameReport& frame) {
+        return frame.visual ? static_cast<double>(value(*frame.visual)) : std::nan("");
+      },
+      list);
+}
+
+ReportGroup Landmarks(const RunRecord& record, TimeNs start) {
+  ReportGroup group{"Landmarks of visual odometry", "landmarks", false, {}};
+  const auto add = [&](const char* name, auto value) {
+    AppendVisual(name, record, start, value, &group.series);
+  };
+  add("in the window", [](const VioEstimate& visual) { return visual.landmarks; });
+  add("outliers", [](const VioEstimate& visual) { return visual.outliers; });
+  add("with a distance by lidar",
+      [](const VioEstimate& visual) { return visual.measured_distances; });
+  return group;
 }
 
 void AddFeatures(const RunRecord& record, ReportData* data) {
@@ -185,6 +230,18 @@ ReportGroup Uncertainty(const RunRecord& record, TimeNs start) {
   return group;
 }
 
+/// The same of visual odometry where no scan led.
+ReportGroup VisualUncertainty(const RunRecord& record, TimeNs start) {
+  ReportGroup group{"Standard deviation that visual odometry states", "m", false, {}};
+  AppendVisual(
+      "position, m", record, start,
+      [](const VioEstimate& visual) {
+        return std::sqrt(visual.covariance.block<3, 3>(3, 3).trace());
+      },
+      &group.series);
+  return group;
+}
+
 /// Processor seconds a second of the recording: the cores that it would keep busy at its own pace.
 ReportGroup Load(const std::vector<LoadSample>& load, TimeNs start) {
   ReportGroup group{"Load at the recording's own pace", "cores", false, {{"cores", {}, {}}}};
@@ -211,7 +268,8 @@ void AddGroups(const RunRecord& record, ReportData* data) {
   for (ReportGroup& group : std::vector<ReportGroup>{
            StageTimes("Time of a scan by stage", FrameSource::kScan, record, start),
            StageTimes("Time of an image by stage", FrameSource::kImage, record, start),
-           Matching(record, start), Uncertainty(record, start), Load(record.samples.load, start),
+           Matching(record, start), Uncertainty(record, start), Landmarks(record, start),
+           VisualUncertainty(record, start), Load(record.samples.load, start),
            Memory(record.samples.load, start)}) {
     const bool is_empty = group.series.empty() || group.series.front().values.empty();
     if (!is_empty) data->groups.push_back(std::move(group));
@@ -283,6 +341,7 @@ ReportData ReportOf(const RunSetup& setup, const SlamSystem& system, const RunRe
         {(of_image ? "image: " : "") + StageName(stage.name), stage.median_ms, stage.p99_ms});
   }
   AddFeatures(record, &data);
+  AddKeyframes(record, trajectory, &data);
   AddLeader(record, &data);
   AddGroups(record, &data);
   data.frames = SampleFrames(setup, record.samples.images, data.start);
