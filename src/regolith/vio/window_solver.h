@@ -11,8 +11,8 @@ struct WindowSolution {
   int iterations = 0;
   int landmarks = 0;
   int sightings = 0;
-  /// Mean squared residual, in variances, of the sightings: about 1 (half of it a Cauchy loss takes
-  /// off) where the noise is what the options say.
+  /// The whole final cost over the number of sightings: about 0.5 where the noise is what the
+  /// options say, less where it is smaller.
   double visual_cost = 0.0;
 };
 
