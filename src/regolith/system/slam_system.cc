@@ -187,6 +187,8 @@ std::vector<FrameReport> SlamSystem::Process(const SensorEvent& event) {
 std::vector<FrameReport> SlamSystem::Finish() {
   std::vector<FrameReport> reports;
   if (visual_) reports = Report(visual_->Finish());
+  for (FrameReport& report : tracked_) reports.push_back(std::move(report));
+  tracked_.clear();
   if (!scan_odometry_) return reports;
   for (FrameReport& report : Report(scan_odometry_->Finish())) reports.push_back(std::move(report));
   return reports;
@@ -303,8 +305,11 @@ std::vector<FrameReport> SlamSystem::Report(std::vector<VioEstimate> estimates) 
   for (VioEstimate& estimate : estimates) {
     if (distances_) TellVelocity(estimate);
     FrameReport report;
-    // Images that were too near the one before have no estimate.
-    while (estimate.has_image && !tracked_.empty() && tracked_.front().stamp <= estimate.stamp) {
+    // Images from before the start, or too near the one before, have no estimate.
+    for (; !tracked_.empty() && tracked_.front().stamp < estimate.stamp; tracked_.pop_front()) {
+      reports.push_back(std::move(tracked_.front()));
+    }
+    if (estimate.has_image && !tracked_.empty() && tracked_.front().stamp == estimate.stamp) {
       report = std::move(tracked_.front());
       tracked_.pop_front();
     }
