@@ -86,6 +86,7 @@ struct Landmark {
   bool is_placed = false;                   ///< its distance comes from parallax or measurement
   bool in_use = false;                      ///< the window is solved with it
 
+  bool IsSolvedFor() const { return in_use && sightings.size() >= 2; }
   bool IsSeenIn(const WindowFrame* frame) const {
     return !sightings.empty() && sightings.back().frame == frame;
   }
