@@ -6,16 +6,11 @@
 #include <cstdio>
 #include <functional>
 
+#include "regolith/apps/number_text.h"
 #include "regolith/core/check.h"
 
 namespace regolith {
 namespace {
-
-std::string Text(const char* format, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
 
 double Median(std::vector<double> values) {
   std::sort(values.begin(), values.end());

@@ -9,18 +9,13 @@
 #include <map>
 #include <utility>
 
+#include "regolith/apps/number_text.h"
 #include "regolith/apps/run_frames.h"
 #include "regolith/core/version.h"
 #include "regolith/report/report_map.h"
 
 namespace regolith {
 namespace {
-
-std::string Text(const char* format, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
 
 /// "features_extract_network" as people read it.
 std::string StageName(std::string name) {

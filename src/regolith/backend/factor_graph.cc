@@ -10,6 +10,7 @@
 #include <ceres/solver.h>
 
 #include "regolith/core/check.h"
+#include "regolith/factors/graph_solver.h"
 #include "regolith/factors/gravity_tilt.h"
 #include "regolith/factors/pose_manifold.h"
 #include "regolith/factors/relative_pose_factor.h"
@@ -54,13 +55,7 @@ class FactorGraph::Problem {
   }
 
   GraphSolution Solve(int max_iterations) {
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-    options.num_threads = 1;
-    options.max_num_iterations = max_iterations;
-    options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem_, &summary);
+    const ceres::Solver::Summary summary = SolveGraph(max_iterations, &problem_);
     return {static_cast<int>(summary.iterations.size()), summary.initial_cost, summary.final_cost};
   }
 

@@ -33,8 +33,7 @@ class DirectionFactor final : public ceres::SizedCostFunction<2, kPoseBlockSize>
     // Exp(-φ) d ≈ d + d × φ.
     Eigen::Matrix<double, 2, 6> tangent_jacobian = Eigen::Matrix<double, 2, 6>::Zero();
     tangent_jacobian.leftCols<3>() = across_ * Hat(seen_body);
-    Eigen::Map<Eigen::Matrix<double, 2, kPoseBlockSize, Eigen::RowMajor>> written(jacobians[0]);
-    written = tangent_jacobian * PoseMinusJacobian(blocks[0]);
+    WritePoseJacobian<2>(tangent_jacobian, blocks[0], jacobians[0]);
     return true;
   }
 

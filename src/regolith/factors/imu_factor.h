@@ -37,21 +37,15 @@ class ImuFactor final
     if (jacobians == nullptr) return true;
     const Matrix15d by_from = square_root_information_ * residual.jacobian_from;
     const Matrix15d by_to = square_root_information_ * residual.jacobian_to;
-    WritePose(by_from, blocks[0], jacobians[0]);
+    WritePoseJacobian<15>(by_from.leftCols<6>(), blocks[0], jacobians[0]);
     WriteMotion(by_from, jacobians[1]);
-    WritePose(by_to, blocks[2], jacobians[2]);
+    WritePoseJacobian<15>(by_to.leftCols<6>(), blocks[2], jacobians[2]);
     WriteMotion(by_to, jacobians[3]);
     WriteTilt(from, tilt, jacobians[4]);
     return true;
   }
 
  private:
-  static void WritePose(const Matrix15d& by_state, const double* block, double* jacobian) {
-    if (jacobian == nullptr) return;
-    Eigen::Map<Eigen::Matrix<double, 15, kPoseBlockSize, Eigen::RowMajor>> written(jacobian);
-    written = by_state.leftCols<6>() * PoseMinusJacobian(block);
-  }
-
   static void WriteMotion(const Matrix15d& by_state, double* jacobian) {
     if (jacobian == nullptr) return;
     Eigen::Map<Eigen::Matrix<double, 15, kMotionBlockSize, Eigen::RowMajor>> written(jacobian);

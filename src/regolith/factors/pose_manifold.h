@@ -45,6 +45,16 @@ inline Eigen::Matrix<double, 6, kPoseBlockSize, Eigen::RowMajor> PoseMinusJacobi
   return jacobian;
 }
 
+/// Writes a derivative by the tangent of a pose as Ceres wants it, by the block's seven values.
+/// `jacobian`: kRows × 7, row by row; null where it is not wanted.
+template <int kRows>
+void WritePoseJacobian(const Eigen::Matrix<double, kRows, 6>& by_tangent, const double* block,
+                       double* jacobian) {
+  if (jacobian == nullptr) return;
+  Eigen::Map<Eigen::Matrix<double, kRows, kPoseBlockSize, Eigen::RowMajor>> written(jacobian);
+  written = by_tangent * PoseMinusJacobian(block);
+}
+
 /// Poses perturbed as Plus(T, [φ, δ]) of geometry/se3.h: rotation on the right, position in the
 /// pose's own target frame.
 class PoseManifold final : public ceres::Manifold {

@@ -24,8 +24,7 @@ class PosePriorFactor final : public ceres::SizedCostFunction<6, kPoseBlockSize>
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
     Matrix6d jacobian = Matrix6d::Identity();
     jacobian.topLeftCorner<3, 3>() = RightJacobianInverseSo3(error.head<3>());
-    Eigen::Map<Eigen::Matrix<double, 6, kPoseBlockSize, Eigen::RowMajor>> written(jacobians[0]);
-    written = square_root_information_ * jacobian * PoseMinusJacobian(blocks[0]);
+    WritePoseJacobian<6>(square_root_information_ * jacobian, blocks[0], jacobians[0]);
     return true;
   }
 

@@ -54,11 +54,8 @@ class RelativePoseFactor final
   }
 
  private:
-  using BlockJacobian = Eigen::Matrix<double, 6, kPoseBlockSize, Eigen::RowMajor>;
-
   void Write(const Matrix6d& tangent_jacobian, const double* block, double* jacobian) const {
-    Eigen::Map<BlockJacobian> written(jacobian);
-    written = square_root_information_ * tangent_jacobian * PoseMinusJacobian(block);
+    WritePoseJacobian<6>(square_root_information_ * tangent_jacobian, block, jacobian);
   }
 
   SE3 T_i_j_;

@@ -35,9 +35,10 @@ class ReprojectionFactor final
     const BearingError error(transfer.ray_target, target, plane_, sigma_);
     Eigen::Map<Eigen::Vector2d>(residuals, 2) = error.value;
     if (jacobians == nullptr) return true;
-    WritePose(error.by_ray * transfer.by_pose_i, blocks[0], jacobians[0]);
-    WritePose(error.by_ray * transfer.by_pose_j, blocks[1], jacobians[1]);
-    WritePose(error.by_ray * (transfer.by_source + transfer.by_target), blocks[2], jacobians[2]);
+    WritePoseJacobian<2>(error.by_ray * transfer.by_pose_i, blocks[0], jacobians[0]);
+    WritePoseJacobian<2>(error.by_ray * transfer.by_pose_j, blocks[1], jacobians[1]);
+    WritePoseJacobian<2>(error.by_ray * (transfer.by_source + transfer.by_target), blocks[2],
+                         jacobians[2]);
     if (jacobians[3] != nullptr) {
       Eigen::Map<Eigen::Vector2d>(jacobians[3], 2) = error.by_ray * transfer.by_inverse_distance;
     }
@@ -50,13 +51,6 @@ class ReprojectionFactor final
   }
 
  private:
-  static void WritePose(const Eigen::Matrix<double, 2, 6>& by_pose, const double* block,
-                        double* jacobian) {
-    if (jacobian == nullptr) return;
-    Eigen::Map<Eigen::Matrix<double, 2, kPoseBlockSize, Eigen::RowMajor>> written(jacobian);
-    written = by_pose * PoseMinusJacobian(block);
-  }
-
   FeatureSighting first_;
   FeatureSighting second_;
   double sigma_;

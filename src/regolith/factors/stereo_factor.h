@@ -28,8 +28,8 @@ class StereoFactor final : public ceres::SizedCostFunction<2, kPoseBlockSize, kP
     const BearingError error(transfer.ray_target, right_, plane_, sigma_);
     Eigen::Map<Eigen::Vector2d>(residuals, 2) = error.value;
     if (jacobians == nullptr) return true;
-    WritePose(error.by_ray * transfer.by_source, blocks[0], jacobians[0]);
-    WritePose(error.by_ray * transfer.by_target, blocks[1], jacobians[1]);
+    WritePoseJacobian<2>(error.by_ray * transfer.by_source, blocks[0], jacobians[0]);
+    WritePoseJacobian<2>(error.by_ray * transfer.by_target, blocks[1], jacobians[1]);
     if (jacobians[2] != nullptr) {
       Eigen::Map<Eigen::Vector2d>(jacobians[2], 2) = error.by_ray * transfer.by_inverse_distance;
     }
@@ -37,13 +37,6 @@ class StereoFactor final : public ceres::SizedCostFunction<2, kPoseBlockSize, kP
   }
 
  private:
-  static void WritePose(const Eigen::Matrix<double, 2, 6>& by_pose, const double* block,
-                        double* jacobian) {
-    if (jacobian == nullptr) return;
-    Eigen::Map<Eigen::Matrix<double, 2, kPoseBlockSize, Eigen::RowMajor>> written(jacobian);
-    written = by_pose * PoseMinusJacobian(block);
-  }
-
   Eigen::Vector3d left_;
   Eigen::Vector3d right_;
   double sigma_;

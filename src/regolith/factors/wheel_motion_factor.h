@@ -52,8 +52,7 @@ class WheelMotionFactor final
              const double* block, double* jacobian) const {
     Eigen::Matrix<double, 3, 6> by_pose;
     by_pose << by_rotation, by_position;
-    Eigen::Map<Eigen::Matrix<double, 3, kPoseBlockSize, Eigen::RowMajor>> written(jacobian);
-    written = square_root_information_ * by_pose * PoseMinusJacobian(block);
+    WritePoseJacobian<3>(square_root_information_ * by_pose, block, jacobian);
   }
 
   SE3 T_imu_base_;

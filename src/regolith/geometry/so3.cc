@@ -60,6 +60,10 @@ double AngleBetween(const Eigen::Quaterniond& first, const Eigen::Quaterniond& s
   return LogSo3(first.conjugate() * second).norm();
 }
 
+double AngleBetween(const Eigen::Vector3d& first, const Eigen::Vector3d& second) {
+  return std::atan2(first.cross(second).norm(), first.dot(second));
+}
+
 Eigen::Quaterniond RotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   return Eigen::Quaterniond::FromTwoVectors(from, to);
 }

@@ -26,6 +26,9 @@ Eigen::Matrix3d RightJacobianInverseSo3(const Eigen::Vector3d& rotation_vector);
 /// Angle between two rotations, in [0, π] rad.
 double AngleBetween(const Eigen::Quaterniond& first, const Eigen::Quaterniond& second);
 
+/// Angle between two vectors of any length, in [0, π] rad; exact for small angles too.
+double AngleBetween(const Eigen::Vector3d& first, const Eigen::Vector3d& second);
+
 /// The smallest rotation that turns unit vector `from` onto unit vector `to`.
 Eigen::Quaterniond RotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 

@@ -27,6 +27,16 @@ NavState Propagate(const NavState& state, const ImuSample& from, const ImuSample
   return next;
 }
 
+NavState PropagateTo(NavState state, Span<const ImuSample> samples, TimeNs end,
+                     const Eigen::Vector3d& gravity_world) {
+  const std::vector<ImuSample> steps = SamplesBetween(samples, state.time, end);
+  for (size_t i = 1; i < steps.size(); ++i) {
+    if (steps[i].time <= steps[i - 1].time) continue;
+    state = Propagate(state, steps[i - 1], steps[i], gravity_world);
+  }
+  return state;
+}
+
 ImuSample InterpolateSample(const ImuSample& from, const ImuSample& to, TimeNs time) {
   const double span = SecondsBetween(from.time, to.time);
   const double fraction = span > 0.0 ? SecondsBetween(from.time, time) / span : 0.0;

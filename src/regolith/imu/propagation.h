@@ -19,6 +19,11 @@ namespace regolith {
 NavState Propagate(const NavState& state, const ImuSample& from, const ImuSample& to,
                    const Eigen::Vector3d& gravity_world);
 
+/// The state at `end` by all samples on the way there; beyond the last one its values hold. The
+/// samples are sorted and there is one. Throws CheckError where `end` is not later.
+NavState PropagateTo(NavState state, Span<const ImuSample> samples, TimeNs end,
+                     const Eigen::Vector3d& gravity_world);
+
 /// The measurement at `time` on the line between two samples.
 ImuSample InterpolateSample(const ImuSample& from, const ImuSample& to, TimeNs time);
 

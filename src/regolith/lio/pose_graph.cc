@@ -7,6 +7,7 @@
 #include <ceres/solver.h>
 
 #include "regolith/core/check.h"
+#include "regolith/factors/graph_solver.h"
 #include "regolith/factors/pose_manifold.h"
 #include "regolith/factors/relative_pose_factor.h"
 
@@ -47,13 +48,7 @@ std::vector<SE3> OptimizePoseGraph(Span<const SE3> guess, Span<const PoseGraphEd
   }
   if (!blocks.empty()) problem.SetParameterBlockConstant(blocks.front().data());
 
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.num_threads = 1;
-  options.max_num_iterations = kMostIterations;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  SolveGraph(kMostIterations, &problem);
 
   std::vector<SE3> poses;
   poses.reserve(blocks.size());

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/registration/robust_scale.h"
 
+#include <utility>
+
+#include "regolith/core/median.h"
+
 #include <algorithm>
 
 namespace regolith {
@@ -14,9 +18,7 @@ constexpr double kMedianToSigma = 1.4826;
 
 double RobustScale(std::vector<double> magnitudes, double floor) {
   if (magnitudes.empty()) return floor;
-  const auto middle = magnitudes.begin() + static_cast<ptrdiff_t>(magnitudes.size() / 2);
-  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
-  return std::max(floor, kMedianToSigma * *middle);
+  return std::max(floor, kMedianToSigma * Median(std::move(magnitudes)));
 }
 
 bool HasConverged(const SE3& before, const SE3& after, double rotation_tolerance,

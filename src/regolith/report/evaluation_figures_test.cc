@@ -13,6 +13,7 @@
 
 #include "regolith/core/check.h"
 #include "regolith/geometry/so3.h"
+#include "regolith/report/test_folder_internal.h"
 
 namespace regolith {
 namespace {
@@ -31,22 +32,7 @@ std::vector<StampedPose> Curve(double error) {
   return poses;
 }
 
-class EvaluationFiguresTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = ::testing::TempDir() + "evaluation_figures" + std::to_string(::getpid());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string Text(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(folder_ + "/" + name).rdbuf();
-    return text.str();
-  }
-
-  std::string folder_;
-};
+using EvaluationFiguresTest = FigureFolderTest;
 
 TEST_F(EvaluationFiguresTest, DrawsEveryFigureWithItsDataAndScript) {
   const std::vector<StampedPose> reference = Curve(0.0);

@@ -13,28 +13,13 @@
 
 #include "regolith/core/error.h"
 #include "regolith/report/gnuplot.h"
+#include "regolith/report/test_folder_internal.h"
 
 namespace regolith {
 namespace {
 
 using ::testing::HasSubstr;
-
-class FiguresTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = ::testing::TempDir() + "figures it's " + std::to_string(::getpid());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string Text(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(folder_ + "/" + name).rdbuf();
-    return text.str();
-  }
-
-  std::string folder_;
-};
+using FiguresTest = FigureFolderTest;
 
 std::vector<StampedPose> Line() {
   std::vector<StampedPose> poses(3);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "regolith/core/check.h"
+#include "regolith/core/median.h"
 #include "regolith/core/random.h"
 
 namespace regolith {
@@ -35,9 +36,7 @@ double RootMeanSquare(const std::vector<double>& values) {
 
 double MedianMagnitude(std::vector<double> values) {
   for (double& value : values) value = std::abs(value);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return Median(std::move(values));
 }
 
 double RobustSigma(std::vector<double> values) {

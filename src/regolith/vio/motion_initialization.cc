@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "regolith/core/median.h"
 #include "regolith/geometry/so3.h"
 #include "regolith/imu/preintegration.h"
 #include "regolith/imu/propagation.h"
@@ -150,9 +151,9 @@ class ClosedForm {
       for (const auto& [frame, bearing] : landmarks_[i]) {
         const Eigen::Vector3d ray = views_[frame].R_first_camera * bearing;
         const Eigen::Vector3d seen = (points_[i] - CameraAt(frame)).normalized();
-        errors->push_back(std::atan2(ray.cross(seen).norm(), ray.dot(seen)));
+        errors->push_back(AngleBetween(ray, seen));
         if (first.isZero()) first = ray;
-        parallax = std::max(parallax, std::atan2(first.cross(ray).norm(), first.dot(ray)));
+        parallax = std::max(parallax, AngleBetween(first, ray));
       }
       parallaxes->push_back(parallax);
     }
@@ -257,12 +258,6 @@ class ClosedForm {
   std::vector<double> distances_;
   Vector6d solution_ = Vector6d::Zero();
 };
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<Sightings> LandmarksOf(Span<const BearingFrame> frames) {
   std::map<int64_t, Sightings> tracks;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "regolith/core/median.h"
 #include "regolith/factors/imu_factor.h"
 #include "regolith/factors/normal_equations.h"
 #include "regolith/factors/relative_pose_factor.h"
@@ -28,11 +29,16 @@ constexpr double kLongestRest = 2.0;  // s
 constexpr double kFarthest = 1e4;  // m
 constexpr double kNearest = 0.05;  // m
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+void Add(const WindowResidual& residual, NormalEquations* equations) {
+  equations->Add(*residual.factor, residual.loss.get(), residual.blocks);
+}
+
+void Add(Landmark* landmark, NormalEquations* equations) {
+  equations->BeginLandmark(&landmark->inverse_distance);
+  for (const LandmarkSighting& sighting : landmark->sightings) {
+    for (const WindowResidual& residual : sighting.residuals) Add(residual, equations);
+  }
+  equations->EndLandmark();
 }
 
 }  // namespace
@@ -48,18 +54,14 @@ SlidingWindow::SlidingWindow(const VioOptions& options, const VioCalibration& ca
 std::vector<std::pair<double*, int>> SlidingWindow::SharedBlocks() {
   std::vector<std::pair<double*, int>> blocks = {{tilt_.data(), kTiltBlockSize}};
   if (options_.refine_extrinsics) blocks.emplace_back(T_imu_camera_.data(), kPoseBlockSize);
-  if (options_.refine_time_offset && calibration_.time_offset_sigma > 0.0) {
-    blocks.emplace_back(&time_offset_, 1);
-  }
+  if (refines_time_offset()) blocks.emplace_back(&time_offset_, 1);
   return blocks;
 }
 
 std::vector<std::pair<double*, int>> SlidingWindow::FixedBlocks() {
   std::vector<std::pair<double*, int>> blocks = {{T_imu_right_.data(), kPoseBlockSize}};
   if (!options_.refine_extrinsics) blocks.emplace_back(T_imu_camera_.data(), kPoseBlockSize);
-  if (!options_.refine_time_offset || calibration_.time_offset_sigma <= 0.0) {
-    blocks.emplace_back(&time_offset_, 1);
-  }
+  if (!refines_time_offset()) blocks.emplace_back(&time_offset_, 1);
   return blocks;
 }
 
@@ -99,9 +101,7 @@ void SlidingWindow::Start(const NavState& state, const Eigen::Vector2d& tilt,
     know(T_imu_camera_.data(), kPoseBlockSize,
          {rotation, rotation, rotation, position, position, position});
   }
-  if (options_.refine_time_offset && calibration_.time_offset_sigma > 0.0) {
-    know(&time_offset_, 1, {calibration_.time_offset_sigma});
-  }
+  if (refines_time_offset()) know(&time_offset_, 1, {calibration_.time_offset_sigma});
   const Eigen::VectorXd root =
       Eigen::Map<const Eigen::VectorXd>(sigmas.data(), static_cast<Eigen::Index>(sigmas.size()))
           .cwiseInverse();
@@ -369,7 +369,7 @@ SlidingWindow::Progress SlidingWindow::ProgressSinceKeyframe() const {
     if (!is_seen) continue;
     const Eigen::Vector3d turned = R_last_now * landmark.sightings.back().seen.bearing;
     const Eigen::Vector3d& before = landmark.sightings[count - 2].seen.bearing;
-    angles.push_back(std::atan2(turned.cross(before).norm(), turned.dot(before)));
+    angles.push_back(AngleBetween(turned, before));
   }
   progress.parallax = Median(angles);
   progress.shared = of_last == 0 ? 0.0 : static_cast<double>(angles.size()) / of_last;
@@ -467,19 +467,18 @@ void SlidingWindow::MarginaliseOldest() {
     blocks.emplace_back(frames_[i]->pose.data(), kPoseBlockSize);
   }
   NormalEquations equations(WithPriorPoints(blocks, prior_));
-  const auto add = [&](const WindowResidual& residual) {
-    equations.Add(*residual.factor, residual.loss.get(), residual.blocks);
-  };
-  if (const auto prior = PriorResidual()) add(*prior);
-  for (const WindowResidual& residual : oldest->residuals) add(residual);
-  for (const WindowResidual& residual : next->residuals) {
-    const bool with_oldest =
-        std::any_of(residual.blocks.begin(), residual.blocks.end(), [&](const double* block) {
-          return block == oldest->pose.data() || block == oldest->motion.data() ||
-                 block == &oldest->slip;
-        });
-    if (with_oldest) add(residual);
+  if (const auto prior = PriorResidual()) Add(*prior, &equations);
+  for (const WindowResidual& residual : oldest->residuals) Add(residual, &equations);
+  // What is of the next frame alone stays with it; the rest ties it to the oldest.
+  std::vector<WindowResidual> own;
+  for (WindowResidual& residual : next->residuals) {
+    if (residual.blocks.size() == 1) {
+      own.push_back(std::move(residual));
+    } else {
+      Add(residual, &equations);
+    }
   }
+  next->residuals = std::move(own);
   for (auto entry = landmarks_.begin(); entry != landmarks_.end();) {
     Landmark& landmark = entry->second;
     const bool is_over =
@@ -488,24 +487,12 @@ void SlidingWindow::MarginaliseOldest() {
       ++entry;
       continue;
     }
-    if (landmark.in_use && landmark.sightings.size() > 1) {
-      equations.BeginLandmark(&landmark.inverse_distance);
-      for (const LandmarkSighting& sighting : landmark.sightings) {
-        for (const WindowResidual& residual : sighting.residuals) add(residual);
-      }
-      equations.EndLandmark();
-    }
+    if (landmark.IsSolvedFor()) Add(&landmark, &equations);
     entry = landmarks_.erase(entry);
   }
   prior_ = equations.Marginalise(eliminated);
   SetPriorFactor();
   ForgetFrame(oldest);
-  // The first frame has none before it; what is of it alone stays.
-  std::vector<WindowResidual> own;
-  for (WindowResidual& residual : next->residuals) {
-    if (residual.blocks.size() == 1) own.push_back(std::move(residual));
-  }
-  next->residuals = std::move(own);
   history_.Move(oldest->record, FromPoseBlock(oldest->pose.data()));
   frames_.pop_front();
 }
@@ -535,20 +522,12 @@ Matrix15d SlidingWindow::NewestCovariance() {
   blocks.emplace_back(newest().pose.data(), kPoseBlockSize);
   blocks.emplace_back(newest().motion.data(), kMotionBlockSize);
   NormalEquations equations(WithPriorPoints(blocks, prior_));
-  const auto add = [&](const WindowResidual& residual) {
-    equations.Add(*residual.factor, residual.loss.get(), residual.blocks);
-  };
-  if (const auto prior = PriorResidual()) add(*prior);
+  if (const auto prior = PriorResidual()) Add(*prior, &equations);
   for (const auto& frame : frames_) {
-    for (const WindowResidual& residual : frame->residuals) add(residual);
+    for (const WindowResidual& residual : frame->residuals) Add(residual, &equations);
   }
   for (auto& [id, landmark] : landmarks_) {
-    if (!landmark.in_use || landmark.sightings.size() < 2) continue;
-    equations.BeginLandmark(&landmark.inverse_distance);
-    for (const LandmarkSighting& sighting : landmark.sightings) {
-      for (const WindowResidual& residual : sighting.residuals) add(residual);
-    }
-    equations.EndLandmark();
+    if (landmark.IsSolvedFor()) Add(&landmark, &equations);
   }
   return equations.Covariance(first);
 }

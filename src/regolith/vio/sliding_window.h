@@ -130,6 +130,9 @@ class SlidingWindow {
   void ForgetFrame(const WindowFrame* frame);
   void Reanchor(Landmark* landmark);
   void MarginaliseOldest();
+  bool refines_time_offset() const {
+    return options_.refine_time_offset && calibration_.time_offset_sigma > 0.0;
+  }
   double BearingSigma() const { return options_.pixel_sigma / calibration_.focal; }
 
   VioOptions options_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "regolith/core/error.h"
+#include "regolith/core/median.h"
 #include "regolith/factors/gravity_tilt.h"
 #include "regolith/geometry/so3.h"
 #include "regolith/imu/propagation.h"
@@ -53,22 +54,16 @@ double MedianAngle(const VioFrame& first, const VioFrame& second, size_t* shared
     while (j < second.features.size() && second.features[j].id < feature.id) ++j;
     if (j == second.features.size()) break;
     if (second.features[j].id != feature.id) continue;
-    const Eigen::Vector3d& other = second.features[j].bearing;
-    angles.push_back(std::atan2(feature.bearing.cross(other).norm(), feature.bearing.dot(other)));
+    angles.push_back(AngleBetween(feature.bearing, second.features[j].bearing));
   }
   *shared = angles.size();
-  if (angles.empty()) return 0.0;
-  const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
-  std::nth_element(angles.begin(), middle, angles.end());
-  return *middle;
+  return Median(std::move(angles));
 }
 
 }  // namespace
 
 const char* VioHealthName(VioHealth health) {
   switch (health) {
-    case VioHealth::kWaiting:
-      return "waiting";
     case VioHealth::kGood:
       return "good";
     case VioHealth::kFewFeatures:
@@ -180,6 +175,15 @@ void VisualInertialOdometry::TryToStart(bool all) {
   waiting_.pop_front();
 }
 
+/// The window begins at the first image that waits.
+void VisualInertialOdometry::Begin(const NavState& state, const Eigen::Vector2d& tilt,
+                                   const StartUncertainty& sigma) {
+  const VioFrame& frame = waiting_.front();
+  window_.Start(state, tilt, sigma, frame.stamp);
+  window_.Observe(Observations(frame));
+  last_frame_ = frame;
+}
+
 bool VisualInertialOdometry::FeaturesStand(const VioFrame& first, const VioFrame& second) const {
   size_t shared = 0;
   const double angle = MedianAngle(first, second, &shared);
@@ -190,26 +194,19 @@ bool VisualInertialOdometry::FeaturesStand(const VioFrame& first, const VioFrame
 /// At the first image after the state that is known, since another odometry is ahead of images.
 bool VisualInertialOdometry::StartFromState() {
   if (!start_) return false;
-  auto [state, gravity_world] = *start_;
+  const auto& [known, gravity_world] = *start_;
   const auto frame = std::find_if(waiting_.begin(), waiting_.end(), [&](const VioFrame& waiting) {
     return TimeOf(waiting) > start_->first.time;
   });
   if (frame == waiting_.end() || TimeOf(*frame) > samples_.back().time) return false;
   waiting_.erase(waiting_.begin(), frame);
-  const std::vector<ImuSample> steps =
-      SamplesBetween(samples_, state.time, TimeOf(waiting_.front()));
-  for (size_t i = 1; i < steps.size(); ++i) {
-    if (steps[i].time <= steps[i - 1].time) continue;
-    state = Propagate(state, steps[i - 1], steps[i], gravity_world);
-  }
   StartUncertainty sigma;
   sigma.velocity = kKnownVelocity;
   sigma.gyro_bias = kKnownGyroBias;
   sigma.accelerometer_bias = accelerometer_bias_sigma_;
   sigma.tilt = accelerometer_bias_sigma_ / calibration_.gravity;
-  window_.Start(state, TiltOfGravity(gravity_world), sigma, waiting_.front().stamp);
-  window_.Observe(Observations(waiting_.front()));
-  last_frame_ = waiting_.front();
+  Begin(PropagateTo(known, samples_, TimeOf(waiting_.front()), gravity_world),
+        TiltOfGravity(gravity_world), sigma);
   return true;
 }
 
@@ -243,9 +240,7 @@ bool VisualInertialOdometry::StartAtRest() {
   sigma.gyro_bias = std::max(3.0 * rest.gyro_bias_sigma, 1e-4);
   sigma.accelerometer_bias = accelerometer_bias_sigma_;
   sigma.tilt = accelerometer_bias_sigma_ / calibration_.gravity + 1e-3;
-  window_.Start(state, Eigen::Vector2d::Zero(), sigma, first.stamp);
-  window_.Observe(Observations(first));
-  last_frame_ = first;
+  Begin(state, Eigen::Vector2d::Zero(), sigma);
   return true;
 }
 
@@ -272,9 +267,7 @@ bool VisualInertialOdometry::StartInMotion() {
   sigma.gyro_bias = kMovingGyroBias;
   sigma.accelerometer_bias = accelerometer_bias_sigma_;
   sigma.tilt = options_.moving_tilt_sigma;
-  window_.Start(start->state, Eigen::Vector2d::Zero(), sigma, waiting_.front().stamp);
-  window_.Observe(Observations(waiting_.front()));
-  last_frame_ = waiting_.front();
+  Begin(start->state, Eigen::Vector2d::Zero(), sigma);
   start_notice_ = Concatenate("started in motion at ", start->state.v_world_imu.norm(),
                               " m/s from ", start->landmarks, " landmarks");
   return true;
@@ -451,14 +444,7 @@ std::optional<NavState> VisualInertialOdometry::RecentMotion() const {
   const auto motion =
       InitializeInMotion(frames, samples_, calibration_.T_imu_camera, calibration_.gravity);
   if (!motion || motion->state.gyro_bias.norm() > options_.max_gyro_bias) return std::nullopt;
-  NavState state = motion->state;
-  const Eigen::Vector3d gravity_level(0.0, 0.0, -calibration_.gravity);
-  const std::vector<ImuSample> steps = SamplesBetween(samples_, state.time, now);
-  for (size_t i = 1; i < steps.size(); ++i) {
-    if (steps[i].time <= steps[i - 1].time) continue;
-    state = Propagate(state, steps[i - 1], steps[i], gravity_level);
-  }
-  return state;
+  return PropagateTo(motion->state, samples_, now, {0.0, 0.0, -calibration_.gravity});
 }
 
 /// Position and heading stay.
@@ -523,12 +509,7 @@ std::optional<NavState> VisualInertialOdometry::StateAt(TimeNs time) const {
     state.time = time;
     return state;
   }
-  const std::vector<ImuSample> steps = SamplesBetween(samples_, state.time, time);
-  for (size_t i = 1; i < steps.size(); ++i) {
-    if (steps[i].time <= steps[i - 1].time) continue;
-    state = Propagate(state, steps[i - 1], steps[i], window_.gravity_world());
-  }
-  return state;
+  return PropagateTo(state, samples_, time, window_.gravity_world());
 }
 
 void VisualInertialOdometry::Forget() {

@@ -4,7 +4,6 @@
 
 #include <deque>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,7 +22,6 @@ namespace regolith {
 
 /// How visual–inertial odometry does.
 enum class VioHealth {
-  kWaiting,  ///< no first state yet
   kGood,
   kFewFeatures,  ///< the IMU (and the wheels) carry on alone
   kLargeBias,    ///< a new start: a bias is out of its range
@@ -44,7 +42,7 @@ struct VioEstimate {
   TimeNs stamp = 0;                          ///< the image's own
   NavState state;                            ///< at its time on the IMU's clock
   Matrix15d covariance = Matrix15d::Zero();  ///< as of the last keyframe, grown by nothing since
-  VioHealth health = VioHealth::kWaiting;
+  VioHealth health = VioHealth::kGood;
   bool at_rest = false;
   bool is_keyframe = false;
   int landmarks = 0;
@@ -113,6 +111,7 @@ class VisualInertialOdometry {
   bool HasReached(TimeNs time) const;
   void AnswerStamps(TimeNs until);
   void TryToStart(bool all);
+  void Begin(const NavState& state, const Eigen::Vector2d& tilt, const StartUncertainty& sigma);
   bool StartFromState();
   bool StartAtRest();
   bool StartInMotion();
@@ -152,8 +151,7 @@ class VisualInertialOdometry {
   Matrix15d covariance_ = Matrix15d::Zero();
   size_t resets_ = 0;
   size_t keyframes_ = 0;
-  int bad_frames_ = 0;      ///< more than good ones
-  TimeNs last_visual_ = 0;  ///< time of the last frame with enough features
+  int bad_frames_ = 0;  ///< more than good ones
   std::string start_notice_;
   std::map<std::string, size_t> failures_;
 };
