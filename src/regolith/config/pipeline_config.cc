@@ -174,6 +174,7 @@ void Fields(Archive& archive, VioOptions& vio) {
   archive("moving_window", vio.moving_window);
   archive("moving_velocity_sigma", vio.moving_velocity_sigma);
   archive("moving_tilt_sigma", vio.moving_tilt_sigma);
+  archive("min_imu_rate", vio.min_imu_rate);
   archive("max_imu_gap", vio.max_imu_gap);
   archive("min_features", vio.min_features);
   archive("max_gyro_bias", vio.max_gyro_bias);

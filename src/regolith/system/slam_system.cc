@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/system/slam_system.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -82,7 +83,9 @@ SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
   const bool is_lio = options.odometry == OdometryKind::kLio;
   needs.imu = is_lio && options.lio.imu && rig.imu.has_value();
   needs.lidar = true;
-  needs.wheels = is_lio && options.lio.wheels && rig.wheels.has_value();
+  const bool is_visual = tracks && options.visual && needs.imu;
+  needs.wheels =
+      is_lio && (options.lio.wheels || (is_visual && options.vio.wheels)) && rig.wheels.has_value();
   if (tracks) needs.cameras.push_back(options.tracked_camera);
   if (tracks && options.visual && options.vio.stereo) {
     needs.cameras.push_back(RightCamera(options, rig));
@@ -140,9 +143,18 @@ SlamSystem::SlamSystem(const PipelineOptions& options, const RigCalibration& rig
     tracker_ = std::make_unique<ImageTracker>(options, rig, std::move(camera_mask));
   }
   const bool is_visual = options.odometry == OdometryKind::kVio;
+  if (!rig.wheels && options.vio.wheels && (is_visual || options.visual)) {
+    setup_notices_.push_back("vio.wheels is set, but the rig has no wheels: it goes without");
+  }
   // Beside the lidar's part the camera's needs an IMU and images; without them the other goes
   // alone.
-  if (!is_visual && !(options.visual && tracker_ && rig.imu)) return;
+  if (!is_visual && !options.visual) return;
+  if (!is_visual && !(tracker_ && rig.imu)) {
+    setup_notices_.push_back(
+        Concatenate("visual odometry does not run: the rig has no ",
+                    rig.imu ? "camera `" + options.tracked_camera + "`" : std::string("imu")));
+    return;
+  }
   if (options.vio.stereo) {
     right_camera_ = RightCamera(options, rig);
     const CameraCalibration& left = rig.cameras.at(options.tracked_camera);
@@ -205,14 +217,21 @@ KeyframeCounts SlamSystem::keyframe_counts() const {
 }
 
 std::vector<std::string> SlamSystem::Notices() const {
-  std::vector<std::string> notices;
-  if (scan_odometry_) notices = scan_odometry_->Notices();
+  std::vector<std::string> notices = setup_notices_;
+  if (scan_odometry_) {
+    for (std::string& notice : scan_odometry_->Notices()) notices.push_back(std::move(notice));
+  }
   if (!visual_) return notices;
   for (std::string& notice : visual_->Notices()) notices.push_back(std::move(notice));
   if (pairs_missed_ > 0) {
     notices.push_back(Concatenate(pairs_missed_,
                                   " images of the left camera had no right one within ", kPairTime,
                                   " s: they went alone; check the stereo pair's stamps"));
+  }
+  if (pairs_unmatched_ > 0) {
+    notices.push_back(Concatenate("in ", pairs_unmatched_, " of ", pairs_seen_,
+                                  " stereo pairs the right image shows less than a tenth of the "
+                                  "features: a dark eye, or eyes that are swapped"));
   }
   return notices;
 }
@@ -378,6 +397,11 @@ std::vector<FrameReport> SlamSystem::Track(const CameraFrame& frame) {
     Stopwatch stopwatch;
     features.right_bearings = stereo_->Match(frame.image, waiting_right_->image, features.features);
     stopwatch.Lap("features_stereo");
+    const auto matched =
+        std::count_if(features.right_bearings.begin(), features.right_bearings.end(),
+                      [](const auto& bearing) { return bearing.has_value(); });
+    ++pairs_seen_;
+    if (10 * static_cast<size_t>(matched) < features.features.size()) ++pairs_unmatched_;
     for (const StageTime& stage : stopwatch.stages()) report.stages.push_back(stage);
   }
   tracked_.push_back(std::move(report));

@@ -124,7 +124,10 @@ class SlamSystem {
   std::optional<CameraFrame> waiting_left_;   ///< for its right one
   std::optional<CameraFrame> waiting_right_;  ///< for its left one
   size_t pairs_missed_ = 0;
-  std::unique_ptr<ImageTracker> tracker_;  ///< null where no images are tracked
+  size_t pairs_seen_ = 0;
+  size_t pairs_unmatched_ = 0;
+  std::vector<std::string> setup_notices_;  ///< what the rig lacks of what the options ask for
+  std::unique_ptr<ImageTracker> tracker_;   ///< null where no images are tracked
   MapBuilder map_;
   Trajectory odometry_;
   size_t scans_seen_ = 0;

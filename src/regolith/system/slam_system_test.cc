@@ -29,6 +29,17 @@ LidarScan Room(TimeNs stamp) {
   return scan;
 }
 
+RigCalibration RigWithCamera() {
+  RigCalibration rig;
+  rig.lidar.emplace();
+  CameraCalibration& camera = rig.cameras["mono"];
+  camera.intrinsics.width = 160;
+  camera.intrinsics.height = 120;
+  camera.intrinsics.focal = {100.0, 100.0};
+  camera.intrinsics.principal_point = {79.5, 59.5};
+  return rig;
+}
+
 TEST(SlamSystem, EveryScanGetsAPoseAndTheMapGrows) {
   RigCalibration rig;
   rig.lidar.emplace();
@@ -80,6 +91,35 @@ TEST(SlamSystem, WithoutTheLidarTheOtherSensorsHaveToBeThere) {
   EXPECT_TRUE(SlamSystem(options, rig, &threads).needs().wheels);
 }
 
+TEST(SlamSystem, SaysWhatTheRigLacksOfWhatTheOptionsAskFor) {
+  PipelineOptions options;
+  options.visual = true;
+  options.vio.wheels = true;
+  options.tracked_camera = "mono";
+  RigCalibration rig;
+  rig.lidar.emplace();
+  ThreadPool threads(1);
+  const std::vector<std::string> notices = SlamSystem(options, rig, &threads).Notices();
+  ASSERT_EQ(notices.size(), 2U);
+  EXPECT_NE(notices[0].find("no wheels"), std::string::npos);
+  EXPECT_NE(notices[1].find("no imu"), std::string::npos);
+}
+
+TEST(SlamSystem, WheelsOfTheCamerasPartAreRead) {
+  PipelineOptions options;
+  options.visual = true;
+  options.vio.wheels = true;
+  options.tracked_camera = "mono";
+  options.features.frontend = "st_lk";
+  RigCalibration rig = RigWithCamera();
+  rig.imu.emplace();
+  rig.wheels.emplace();
+  ThreadPool threads(1);
+  EXPECT_TRUE(SlamSystem(options, rig, &threads).needs().wheels);
+  options.vio.wheels = false;
+  EXPECT_FALSE(SlamSystem(options, rig, &threads).needs().wheels);
+}
+
 TEST(SlamSystem, LegoLoamReadsTheLidarAlone) {
   PipelineOptions options;
   options.odometry = OdometryKind::kLegoLoam;
@@ -92,17 +132,6 @@ TEST(SlamSystem, LegoLoamReadsTheLidarAlone) {
   const SlamSystem system(options, rig, &threads);
   EXPECT_FALSE(system.needs().imu);
   EXPECT_FALSE(system.needs().wheels);
-}
-
-RigCalibration RigWithCamera() {
-  RigCalibration rig;
-  rig.lidar.emplace();
-  CameraCalibration& camera = rig.cameras["mono"];
-  camera.intrinsics.width = 160;
-  camera.intrinsics.height = 120;
-  camera.intrinsics.focal = {100.0, 100.0};
-  camera.intrinsics.principal_point = {79.5, 59.5};
-  return rig;
 }
 
 TEST(SlamSystem, TracksTheImagesOfTheCameraNamed) {
