@@ -148,7 +148,8 @@ int Run(const RunArguments& arguments) {
   read.wheels = system.needs().wheels;
   read.cameras = system.needs().cameras;
   // The trajectory stands without them, unless it is made of them.
-  read.skip_absent_cameras = setup.pipeline.odometry != OdometryKind::kVio;
+  read.skip_absent_cameras = setup.pipeline.odometry != OdometryKind::kVio &&
+                             setup.pipeline.odometry != OdometryKind::kStereo;
   read.skip_absent_wheels = setup.pipeline.lio.lidar;
   read.cuts = setup.cuts;
   const auto source = OpenRecording(setup.identity, setup.rig, read);

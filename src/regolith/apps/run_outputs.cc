@@ -93,6 +93,15 @@ std::string VisualCells(const std::optional<VioEstimate>& visual) {
   return buffer;
 }
 
+/// In the columns of visual odometry that it has too.
+std::string StereoCells(const StereoEstimate& stereo) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof buffer, ",%s,%d,%d,%d,%d,,,", StereoHealthName(stereo.health),
+                stereo.is_keyframe ? 1 : 0, stereo.tracking.inliers, stereo.tracking.close_tracked,
+                stereo.tracking.outliers);
+  return buffer;
+}
+
 std::string StatusTable(const std::vector<FrameReport>& frames) {
   std::string text =
       "time_s,leader,at_rest,tracked_features,points,matches,inliers,residual_scale_m,"
@@ -106,7 +115,7 @@ std::string StatusTable(const std::vector<FrameReport>& frames) {
   for (const FrameReport& frame : frames) {
     text += SecondsText(frame.stamp) + "," + frame.leader;
     text += frame.source == FrameSource::kScan ? ScanCells(frame) : ImageCells(frame);
-    text += VisualCells(frame.visual) + "\n";
+    text += (frame.stereo ? StereoCells(*frame.stereo) : VisualCells(frame.visual)) + "\n";
   }
   return text;
 }

@@ -8,6 +8,7 @@
 #include "regolith/config/backend_fields_internal.h"
 #include "regolith/config/features_fields_internal.h"
 #include "regolith/config/lego_loam_fields_internal.h"
+#include "regolith/config/stereo_fields_internal.h"
 #include "regolith/core/error.h"
 
 namespace regolith {
@@ -196,10 +197,11 @@ void Fields(Archive& archive, LidarDepthOptions& depth) {
   archive("sigma", depth.sigma);
 }
 
-constexpr std::array<std::pair<const char*, OdometryKind>, 3> kOdometryNames = {
+constexpr std::array<std::pair<const char*, OdometryKind>, 4> kOdometryNames = {
     {{"lio", OdometryKind::kLio},
      {"lego_loam", OdometryKind::kLegoLoam},
-     {"vio", OdometryKind::kVio}}};
+     {"vio", OdometryKind::kVio},
+     {"stereo", OdometryKind::kStereo}}};
 
 template <typename Archive>
 void OdometryField(Archive& archive, OdometryKind& odometry) {
@@ -215,7 +217,7 @@ void OdometryField(Archive& archive, OdometryKind& odometry) {
         return;
       }
     }
-    archive.Fail("odometry", "`" + name + "`: expected lio, lego_loam or vio");
+    archive.Fail("odometry", "`" + name + "`: expected lio, lego_loam, vio or stereo");
   }
 }
 
@@ -231,6 +233,8 @@ void Fields(Archive& archive, PipelineOptions& options) {
   archive("vio", options.vio);
   archive("lidar_depth", options.lidar_depth);
   archive("visual_velocity_sigma", options.visual_velocity_sigma);
+  archive("stereo", options.stereo);
+  archive("places", options.places);
   archive("backend", options.backend);
   archive("map", options.map);
 }
@@ -246,6 +250,8 @@ PipelineOptions LoadPipeline(const YamlDocument& document) {
     options.lego_loam.Check();
     options.vio.Check();
     options.lidar_depth.Check();
+    options.stereo.Check();
+    options.places.Check();
     options.backend.Check();
     options.map.Check();
   } catch (const CheckError& error) {

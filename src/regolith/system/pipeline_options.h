@@ -6,10 +6,12 @@
 #include <string>
 
 #include "regolith/backend/backend_options.h"
+#include "regolith/backend/visual_places.h"
 #include "regolith/features/feature_options.h"
 #include "regolith/features/model_manifest.h"
 #include "regolith/lio/lego_loam_options.h"
 #include "regolith/lio/lidar_odometry_options.h"
+#include "regolith/stereo/stereo_options.h"
 #include "regolith/system/map_builder.h"
 #include "regolith/vio/lidar_depth_options.h"
 #include "regolith/vio/vio_options.h"
@@ -21,6 +23,7 @@ enum class OdometryKind {
   kLio,       ///< LidarOdometry
   kLegoLoam,  ///< LegoLoam
   kVio,       ///< VisualInertialOdometry: no lidar
+  kStereo,    ///< StereoPipeline: two cameras and nothing else
 };
 
 /// One pipeline: which subsystems run, and how.
@@ -37,7 +40,9 @@ struct PipelineOptions {
   LidarDepthOptions lidar_depth;
   /// m/s, 1 σ of a velocity that visual odometry tells the lidar's; 0: it does not tell.
   double visual_velocity_sigma = 0.05;
-  BackendOptions backend;  ///< of an odometry that has none of its own
+  StereoOptions stereo;
+  VisualPlacesOptions places;  ///< loops that images confirm (kStereo)
+  BackendOptions backend;      ///< of an odometry that has none of its own
   MapBuilderOptions map;
 
   /// Of the network that `features` names, where it names one. No setting: the program finds it.

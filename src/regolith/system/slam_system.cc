@@ -37,19 +37,21 @@ void CheckInertialSensors(const PipelineOptions& options, const RigCalibration& 
 
 /// The other eye of the tracked camera; a pair without a baseline is none.
 std::string RightCamera(const PipelineOptions& options, const RigCalibration& rig) {
+  const std::string asking =
+      options.odometry == OdometryKind::kStereo ? "pipeline " + options.name : "vio.stereo";
   const auto left = rig.cameras.find(options.tracked_camera);
   const auto right = rig.cameras.find("right");
   if (left == rig.cameras.end() || right == rig.cameras.end() || left->first != "left") {
-    throw InputError("vio.stereo",
+    throw InputError(asking,
                      "needs the cameras `left` and `right` in the rig and `tracked_camera: left`; "
-                     "leave it out for one camera");
+                     "with one camera take another pipeline or leave vio.stereo out");
   }
   const double baseline =
       (left->second.T_imu_camera.translation - right->second.T_imu_camera.translation).norm();
   if (baseline < kLeastBaseline) {
-    throw InputError("vio.stereo", Concatenate("the rig's cameras `left` and `right` are ",
-                                               baseline, " m apart, expected at least ",
-                                               kLeastBaseline, "; check their T_imu_camera"));
+    throw InputError(asking, Concatenate("the rig's cameras `left` and `right` are ", baseline,
+                                         " m apart, expected at least ", kLeastBaseline,
+                                         "; check their T_imu_camera"));
   }
   return right->first;
 }
@@ -74,7 +76,16 @@ SensorNeeds VisualNeeds(const PipelineOptions& options, const RigCalibration& ri
   return needs;
 }
 
+/// The two cameras alone; the lidar's stamps say when poses are wanted.
+SensorNeeds StereoNeeds(const PipelineOptions& options, const RigCalibration& rig) {
+  SensorNeeds needs;
+  needs.lidar = rig.lidar.has_value();
+  needs.cameras = {options.tracked_camera, RightCamera(options, rig)};
+  return needs;
+}
+
 SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
+  if (options.odometry == OdometryKind::kStereo) return StereoNeeds(options, rig);
   if (options.odometry == OdometryKind::kVio) return VisualNeeds(options, rig);
   CheckInertialSensors(options, rig);
   SensorNeeds needs;
@@ -92,7 +103,9 @@ SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
 
 std::unique_ptr<ScanOdometry> MakeScanOdometry(const PipelineOptions& options,
                                                const RigCalibration& rig, ThreadPool* threads) {
-  if (options.odometry == OdometryKind::kVio) return nullptr;
+  if (options.odometry == OdometryKind::kVio || options.odometry == OdometryKind::kStereo) {
+    return nullptr;
+  }
   CheckLidar(options, rig);
   if (options.odometry == OdometryKind::kLegoLoam) {
     return std::make_unique<LegoLoam>(options.lego_loam, rig, threads);
@@ -135,6 +148,11 @@ SlamSystem::SlamSystem(const PipelineOptions& options, const RigCalibration& rig
       scan_odometry_(MakeScanOdometry(options, rig, threads)),
       visual_velocity_sigma_(options.visual_velocity_sigma),
       map_(options.map) {
+  if (options.odometry == OdometryKind::kStereo) {
+    stereo_pipeline_ = std::make_unique<StereoPipeline>(options, rig, RightCamera(options, rig),
+                                                        camera_mask, threads);
+    return;
+  }
   if (HasBackend(options)) backend_ = std::make_unique<Backend>(options.backend, threads);
   if (!needs_.cameras.empty()) {
     tracker_ = std::make_unique<ImageTracker>(options, rig, std::move(camera_mask));
@@ -171,13 +189,16 @@ std::vector<FrameReport> SlamSystem::Process(const SensorEvent& event) {
     if (visual_) visual_->AddWheels(*wheels);
     if (scan_odometry_) take(Report(scan_odometry_->AddWheels(*wheels)));
   } else if (const auto* frame = std::get_if<CameraFrame>(&event)) {
-    if (stereo_) {
+    if (stereo_pipeline_) {
+      take(Report(stereo_pipeline_->AddImage(*frame)));
+    } else if (stereo_) {
       take(TrackPair(*frame));
     } else if (tracker_ && frame->camera == tracker_->camera()) {
       take(Track(*frame));
     }
   } else if (const auto* scan = std::get_if<LidarScan>(&event)) {
     ++scans_seen_;
+    if (stereo_pipeline_) stereo_pipeline_->AddStamp(scan->stamp);
     if (visual_) visual_->AddStamp(scan->stamp);
     if (scan_odometry_) take(Report(scan_odometry_->AddScan(*scan)));
   }
@@ -186,6 +207,7 @@ std::vector<FrameReport> SlamSystem::Process(const SensorEvent& event) {
 
 std::vector<FrameReport> SlamSystem::Finish() {
   std::vector<FrameReport> reports;
+  if (stereo_pipeline_) return Report(stereo_pipeline_->Finish());
   if (visual_) reports = Report(visual_->Finish());
   for (FrameReport& report : tracked_) reports.push_back(std::move(report));
   tracked_.clear();
@@ -199,12 +221,14 @@ KeyframeCounts SlamSystem::keyframe_counts() const {
     return {backend_->keyframes().size(), backend_->loops_accepted(), backend_->loops_rejected()};
   }
   if (scan_odometry_) return scan_odometry_->Counts();
+  if (stereo_pipeline_) return stereo_pipeline_->Counts();
   KeyframeCounts counts;
   counts.keyframes = visual_->keyframes();
   return counts;
 }
 
 std::vector<std::string> SlamSystem::Notices() const {
+  if (stereo_pipeline_) return stereo_pipeline_->Notices();
   std::vector<std::string> notices;
   if (scan_odometry_) notices = scan_odometry_->Notices();
   if (!visual_) return notices;
@@ -218,6 +242,7 @@ std::vector<std::string> SlamSystem::Notices() const {
 }
 
 Trajectory SlamSystem::trajectory() const {
+  if (stereo_pipeline_) return stereo_pipeline_->Refined();
   if (backend_) return backend_->Corrected(odometry_);
   if (scan_odometry_) return scan_odometry_->Refined().value_or(odometry_);
   const FrameHistory history = visual_->window().History();
@@ -327,7 +352,24 @@ std::vector<FrameReport> SlamSystem::Report(std::vector<VioEstimate> estimates) 
   return reports;
 }
 
+std::vector<FrameReport> SlamSystem::Report(std::vector<StereoReport> stereo) {
+  std::vector<FrameReport> reports;
+  for (StereoReport& pair : stereo) {
+    FrameReport report;
+    report.source = FrameSource::kImage;
+    report.stamp = pair.estimate.stamp;
+    if (pair.estimate.T_world_camera) report.leader = "camera";
+    report.T_world_body = pair.T_world_body;
+    report.features = std::move(pair.features);
+    report.stages = std::move(pair.stages);
+    report.stereo = std::move(pair.estimate);
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
 std::vector<MapPoint> SlamSystem::MapPoints() const {
+  if (stereo_pipeline_) return stereo_pipeline_->MapPoints();
   if (!scan_odometry_) return {};
   if (!backend_ && !scan_odometry_->Refined()) return map_.points();
   const Trajectory best = trajectory();

@@ -20,6 +20,7 @@
 #include "regolith/system/lidar_distances.h"
 #include "regolith/system/map_builder.h"
 #include "regolith/system/pipeline_options.h"
+#include "regolith/system/stereo_pipeline.h"
 #include "regolith/vio/visual_inertial_odometry.h"
 
 namespace regolith {
@@ -56,6 +57,7 @@ struct FrameReport {
 
   FrontendStatus features;            ///< of an image
   std::optional<VioEstimate> visual;  ///< of an image that visual–inertial odometry has worked off
+  std::optional<StereoEstimate> stereo;  ///< of an image of a stereo pipeline
 };
 
 /// Whether a pipeline tracks images of this rig: it names a camera that is there.
@@ -78,26 +80,33 @@ class SlamSystem {
   std::vector<FrameReport> Finish();
 
   /// Poses of the body as first put out, at each frame's stamp.
-  const Trajectory& odometry() const { return odometry_; }
+  const Trajectory& odometry() const {
+    return stereo_pipeline_ ? stereo_pipeline_->odometry() : odometry_;
+  }
   /// The best poses known now.
   Trajectory trajectory() const;
   /// The map as it lies with the best poses known now.
   std::vector<MapPoint> MapPoints() const;
 
   size_t scans_seen() const { return scans_seen_; }
-  size_t images_seen() const { return images_seen_; }
+  size_t images_seen() const {
+    return stereo_pipeline_ ? stereo_pipeline_->images_seen() : images_seen_;
+  }
   /// Stamps at which a pose is expected: scans, or images where no scan came.
-  size_t stamps_seen() const { return scans_seen_ > 0 ? scans_seen_ : images_seen_; }
+  size_t stamps_seen() const { return scans_seen_ > 0 ? scans_seen_ : images_seen(); }
   /// New starts of an odometry that had lost its way.
   size_t resets() const { return visual_ ? visual_->resets() : 0; }
   KeyframeCounts keyframe_counts() const;
   /// Keyframes and loops; null where the pipeline has no back end, or one inside its odometry.
-  const Backend* backend() const { return backend_.get(); }
+  const Backend* backend() const {
+    return stereo_pipeline_ ? stereo_pipeline_->backend() : backend_.get();
+  }
   std::vector<std::string> Notices() const;
 
  private:
   std::vector<FrameReport> Report(std::vector<ScanEstimate> estimates);
   std::vector<FrameReport> Report(std::vector<VioEstimate> estimates);
+  std::vector<FrameReport> Report(std::vector<StereoReport> stereo);
   std::vector<FrameReport> Track(const CameraFrame& frame);
   std::vector<FrameReport> TrackPair(const CameraFrame& frame);
   std::vector<StageTime> AddKeyframe(const ScanEstimate& estimate);
@@ -112,10 +121,11 @@ class SlamSystem {
   };
 
   SensorNeeds needs_;
-  std::unique_ptr<ScanOdometry> scan_odometry_;     ///< null without a lidar's part
-  std::unique_ptr<Backend> backend_;                ///< null where there is none
-  std::unique_ptr<VisualInertialOdometry> visual_;  ///< null without a camera's part
-  std::unique_ptr<LidarDistances> distances_;       ///< where both are
+  std::unique_ptr<StereoPipeline> stereo_pipeline_;  ///< alone where it is there
+  std::unique_ptr<ScanOdometry> scan_odometry_;      ///< null without a lidar's part
+  std::unique_ptr<Backend> backend_;                 ///< null where there is none
+  std::unique_ptr<VisualInertialOdometry> visual_;   ///< null without a camera's part
+  std::unique_ptr<LidarDistances> distances_;        ///< where both are
   double visual_velocity_sigma_;
   std::vector<VisualAnchor> anchors_;      ///< of the poses of `odometry_`
   std::deque<FrameReport> tracked_;        ///< images that wait for their estimate
