@@ -86,8 +86,8 @@ void StereoFrontend::CheckOrder(const FeatureSet& left, const FeatureSet& right,
   throw InputError(
       "stereo pair",
       Concatenate(reversed, " keypoints fit with left and right exchanged, ", with_distance,
-                  " as they are: the images are swapped; exchange the topics or T_imu_camera of "
-                  "`left` and `right` in the rig"));
+                  " as they are: the images are swapped; exchange the topics of `left` and "
+                  "`right` in the rig"));
 }
 
 }  // namespace regolith

@@ -108,7 +108,7 @@ StereoRectifier::StereoRectifier(const CameraIntrinsics& left, const CameraIntri
     // The images of cameras that are swapped would stand on their heads.
     if (axes(2, 2) > kLeastCosine && axes(0, 0) > kLeastCosine) continue;
     throw InputError(
-        "", Concatenate("the ", name,
+        "cameras left and right of the rig", Concatenate("the ", name,
                         " camera does not look across the baseline with the other on its "
                         "proper side; T_left_right has the translation ",
                         T_left_right.translation.transpose(),

@@ -16,7 +16,7 @@ namespace regolith {
 /// focal lengths, images of the left camera's size.
 class StereoRectifier {
  public:
-  /// `T_left_right`: right camera frame into the left one. Throws InputError (without a key) where
+  /// `T_left_right`: right camera frame into the left one. Throws InputError where
   /// the right camera stands behind or left of the left one, so that no rectified pair has both.
   StereoRectifier(const CameraIntrinsics& left, const CameraIntrinsics& right,
                   const SE3& T_left_right);
