@@ -3,16 +3,22 @@
 #include "regolith/stereo/frame_tracker.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "regolith/features/absolute_pose.h"
+#include "regolith/geometry/so3.h"
 
 namespace regolith {
 namespace {
 
-// Keyframes around a frame: those that share landmarks with it, and their own neighbours.
+// Keyframes around a frame: those that share landmarks with it, their own neighbours, and those
+// that stood near and looked the same way, so that ground is known again after a round.
 constexpr size_t kSharingKeyframes = 20;
 constexpr size_t kNeighboursOfEach = 5;
 constexpr size_t kLocalKeyframes = 40;
+constexpr size_t kNearKeyframes = 10;  // beyond these
+constexpr double kNearDistance = 2.0;  // m
+constexpr double kNearAngle = 0.6;     // rad
 constexpr int kLeastKeyframeMatches = 15;
 constexpr int kLeastKeyframeInliers = 10;
 constexpr double kPoseError = 4.0;  // pixels, of an inlier of RANSAC
@@ -128,6 +134,23 @@ bool FrameTracker::FollowKeyframe(KeyframeId keyframe_id, StereoFrame* frame) {
   return true;
 }
 
+void FrameTracker::AddNear(const SE3& T_world_camera, std::vector<KeyframeId>* keyframes) const {
+  std::vector<std::pair<double, KeyframeId>> near;  // m
+  for (const auto& [id, keyframe] : map_->keyframes()) {
+    if (std::find(keyframes->begin(), keyframes->end(), id) != keyframes->end()) continue;
+    const double distance =
+        (keyframe.T_world_camera.translation - T_world_camera.translation).norm();
+    if (distance > kNearDistance ||
+        AngleBetween(keyframe.T_world_camera.rotation, T_world_camera.rotation) > kNearAngle) {
+      continue;
+    }
+    near.emplace_back(distance, id);
+  }
+  std::sort(near.begin(), near.end());
+  if (near.size() > kNearKeyframes) near.resize(kNearKeyframes);
+  for (const auto& [distance, id] : near) keyframes->push_back(id);
+}
+
 std::vector<LandmarkId> FrameTracker::LocalLandmarks(const StereoFrame& frame) const {
   std::vector<Covisible> sharing = map_->Seeing(frame.landmarks);
   if (sharing.size() > kSharingKeyframes) sharing.resize(kSharingKeyframes);
@@ -146,6 +169,7 @@ std::vector<LandmarkId> FrameTracker::LocalLandmarks(const StereoFrame& frame) c
       add(neighbours[i].keyframe);
     }
   }
+  AddNear(frame.T_world_camera, &keyframes);
   std::vector<LandmarkId> landmarks;
   for (const KeyframeId keyframe : keyframes) {
     for (const LandmarkId landmark : map_->keyframe(keyframe).landmarks) {

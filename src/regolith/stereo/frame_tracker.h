@@ -46,6 +46,8 @@ class FrameTracker {
 
  private:
   bool SearchAround(const StereoFrame& last, double radius, StereoFrame* frame);
+  /// Keyframes that stood near and looked the same way.
+  void AddNear(const SE3& T_world_camera, std::vector<KeyframeId>* keyframes) const;
   std::vector<LandmarkId> LocalLandmarks(const StereoFrame& frame) const;
   void AddLandmarks(double radius, StereoFrame* frame);
   TrackingResult Judge(StereoFrame* frame);

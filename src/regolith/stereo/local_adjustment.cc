@@ -3,7 +3,6 @@
 #include "regolith/stereo/local_adjustment.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -34,6 +33,7 @@ class Adjustment {
     ChooseKeyframes(newest);
     ChooseLandmarks();
     ChooseFixed();
+    CopyValues();
     AddResiduals();
     if (problem_.NumResidualBlocks() == 0) return;
     Solve();
@@ -44,10 +44,10 @@ class Adjustment {
  private:
   struct Point {
     LandmarkId id = kNoId;
-    std::array<double, 3> position{};
+    double* position = nullptr;
   };
   struct Pose {
-    std::array<double, kPoseBlockSize> block{};
+    double* block = nullptr;
     bool moves = false;
     SE3 before;
   };
@@ -63,7 +63,6 @@ class Adjustment {
     Pose& pose = poses_[keyframe];
     pose.before = map_->keyframe(keyframe).T_world_camera;
     pose.moves = moves;
-    Eigen::Map<PoseBlock>(pose.block.data(), kPoseBlockSize) = ToPoseBlock(pose.before);
   }
 
   void ChooseKeyframes(KeyframeId newest) {
@@ -91,11 +90,7 @@ class Adjustment {
     if (seen.size() > static_cast<size_t>(options_.max_landmarks)) {
       seen.resize(static_cast<size_t>(options_.max_landmarks));
     }
-    for (const LandmarkId id : seen) {
-      Point point{id, {}};
-      Eigen::Map<Eigen::Vector3d>(point.position.data()) = map_->Find(id)->position_world;
-      points_.push_back(point);
-    }
+    for (const LandmarkId id : seen) points_.push_back({id, nullptr});
   }
 
   /// The other keyframes that see them stay where they are; without any the oldest does.
@@ -113,6 +108,23 @@ class Adjustment {
     if (fixed == 0 || oldest->first == 0) oldest->second.moves = false;
   }
 
+  /// To one array: Ceres eliminates blocks in the order of their addresses, and sums must not
+  /// depend on where memory happened to lie.
+  void CopyValues() {
+    values_.resize(3 * points_.size() + kPoseBlockSize * poses_.size());
+    double* next = values_.data();
+    for (Point& point : points_) {
+      point.position = next;
+      Eigen::Map<Eigen::Vector3d>(point.position, 3) = map_->Find(point.id)->position_world;
+      next += 3;
+    }
+    for (auto& [keyframe, pose] : poses_) {
+      pose.block = next;
+      Eigen::Map<PoseBlock>(pose.block, kPoseBlockSize) = ToPoseBlock(pose.before);
+      next += kPoseBlockSize;
+    }
+  }
+
   void AddResiduals() {
     for (Point& point : points_) {
       const StereoLandmark& landmark = *map_->Find(point.id);
@@ -126,26 +138,26 @@ class Adjustment {
                                  new StereoProjectionFactor(map_->camera(), seen.seen, seen.sigma))
                            : new MonoProjectionFactor(map_->camera(), seen.seen, seen.sigma);
         problem_.AddResidualBlock(cost, seen.has_right ? &stereo_loss_ : &mono_loss_,
-                                  pose->second.block.data(), point.position.data());
+                                  pose->second.block, point.position);
       }
     }
     for (auto& [keyframe, pose] : poses_) {
-      if (!problem_.HasParameterBlock(pose.block.data())) continue;
-      problem_.SetManifold(pose.block.data(), &manifold_);
-      if (!pose.moves) problem_.SetParameterBlockConstant(pose.block.data());
+      if (!problem_.HasParameterBlock(pose.block)) continue;
+      problem_.SetManifold(pose.block, &manifold_);
+      if (!pose.moves) problem_.SetParameterBlockConstant(pose.block);
     }
   }
 
   void Solve() {
     auto* ordering = new ceres::ParameterBlockOrdering;
     for (Point& point : points_) {
-      if (problem_.HasParameterBlock(point.position.data())) {
-        ordering->AddElementToGroup(point.position.data(), 0);
+      if (problem_.HasParameterBlock(point.position)) {
+        ordering->AddElementToGroup(point.position, 0);
       }
     }
     for (auto& [keyframe, pose] : poses_) {
-      if (problem_.HasParameterBlock(pose.block.data())) {
-        ordering->AddElementToGroup(pose.block.data(), 1);
+      if (problem_.HasParameterBlock(pose.block)) {
+        ordering->AddElementToGroup(pose.block, 1);
       }
     }
     ceres::Solver::Options options;
@@ -160,11 +172,10 @@ class Adjustment {
 
   void TakeOver() {
     for (const Point& point : points_) {
-      map_->Find(point.id)->position_world =
-          Eigen::Map<const Eigen::Vector3d>(point.position.data());
+      map_->Find(point.id)->position_world = Eigen::Map<const Eigen::Vector3d>(point.position);
     }
     for (const auto& [keyframe, pose] : poses_) {
-      if (pose.moves) map_->keyframe(keyframe).T_world_camera = FromPoseBlock(pose.block.data());
+      if (pose.moves) map_->keyframe(keyframe).T_world_camera = FromPoseBlock(pose.block);
     }
     // What a single keyframe sees moves with it.
     for (const LandmarkId id : lone_) {
@@ -203,6 +214,7 @@ class Adjustment {
   ceres::HuberLoss stereo_loss_;
   std::map<KeyframeId, Pose> poses_;
   std::vector<Point> points_;
+  std::vector<double> values_;
   std::vector<LandmarkId> lone_;  ///< landmarks with one sighting
   ceres::Problem problem_;
 };

@@ -13,9 +13,9 @@ namespace {
 
 // A keyframe is not made for landmarks alone where hardly any are left.
 constexpr int kLeastForKeyframe = 15;
-// Sightings of a landmark of the reference that should be found again.
+// Sightings of a landmark of the reference that should be found again; fewer in a map of hardly
+// more keyframes.
 constexpr size_t kReliableSightings = 3;
-constexpr size_t kYoungMap = 3;      // keyframes, in which two are enough
 constexpr double kMoved = 0.1;       // m
 constexpr double kTurned = 0.05;     // rad
 constexpr double kCautious = 1.0;    // s after relocalisation
@@ -144,7 +144,7 @@ std::optional<TrackingResult> StereoOdometry::Relocalise(StereoFrame* frame) {
 /// Mur-Artal & Tardós 2017, section III-E, with mapping that is always ready.
 bool StereoOdometry::WantsKeyframe(const TrackingResult& tracking, const StereoFrame& frame) const {
   const StereoKeyframe& reference = map_.keyframe(tracking.reference);
-  const size_t reliable = map_.keyframes().size() < kYoungMap ? 2 : kReliableSightings;
+  const size_t reliable = std::clamp<size_t>(map_.keyframes().size() - 1, 1, kReliableSightings);
   int expected = 0;
   for (const LandmarkId id : reference.landmarks) {
     if (id != kNoId && map_.Find(id)->sightings.size() >= reliable) ++expected;

@@ -44,13 +44,11 @@ TEST(StereoOdometry, FollowsADriveWithinHalfAPerCent) {
 
 TEST(StereoOdometry, IsTheSameEveryTime) {
   const TestStereoWorld world(2, -1.0, 15.0, 6.0);
-  std::vector<StereoOdometry> runs;
-  for (int run = 0; run < 2; ++run) {
-    runs.emplace_back(StereoOptions(), kTestCamera, Drive(0));
-  }
+  StereoOdometry one(StereoOptions(), kTestCamera, Drive(0));
+  StereoOdometry other(StereoOptions(), kTestCamera, Drive(0));
   for (size_t i = 0; i < 40; ++i) {
-    const auto first = runs[0].Process(TimeOf(i), world.See(Drive(i), i)).T_world_camera;
-    const auto second = runs[1].Process(TimeOf(i), world.See(Drive(i), i)).T_world_camera;
+    const auto first = one.Process(TimeOf(i), world.See(Drive(i), i)).T_world_camera;
+    const auto second = other.Process(TimeOf(i), world.See(Drive(i), i)).T_world_camera;
     ASSERT_TRUE(first && second);
     EXPECT_EQ(first->translation, second->translation);
     EXPECT_EQ(first->rotation.coeffs(), second->rotation.coeffs());
@@ -127,7 +125,9 @@ TEST(StereoOdometry, SettledKeyframesAreHandedOutOnce) {
   ASSERT_GT(places.size(), 3U);
   EXPECT_TRUE(odometry.TakePlaces(true).empty());
   for (size_t i = 0; i < places.size(); ++i) {
-    if (i > 0) EXPECT_GT(places[i].stamp, places[i - 1].stamp);
+    if (i > 0) {
+      EXPECT_GT(places[i].stamp, places[i - 1].stamp);
+    }
     EXPECT_GT(places[i].global.size(), 0);
     EXPECT_EQ(places[i].bearings.size(), places[i].descriptors.size());
     EXPECT_EQ(places[i].ranges.size(), places[i].descriptors.size());

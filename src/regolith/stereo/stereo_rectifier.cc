@@ -108,12 +108,13 @@ StereoRectifier::StereoRectifier(const CameraIntrinsics& left, const CameraIntri
     // The images of cameras that are swapped would stand on their heads.
     if (axes(2, 2) > kLeastCosine && axes(0, 0) > kLeastCosine) continue;
     throw InputError(
-        "cameras left and right of the rig", Concatenate("the ", name,
-                        " camera does not look across the baseline with the other on its "
-                        "proper side; T_left_right has the translation ",
-                        T_left_right.translation.transpose(),
-                        " m, expected mostly +x: check T_imu_camera of `left` and `right`, "
-                        "or whether they are swapped"));
+        "cameras left and right of the rig",
+        Concatenate("the ", name,
+                    " camera does not look across the baseline with the other on its "
+                    "proper side; T_left_right has the translation ",
+                    T_left_right.translation.transpose(),
+                    " m, expected mostly +x: check T_imu_camera of `left` and `right`, "
+                    "or whether they are swapped"));
   }
   camera_.width = left.width;
   camera_.height = left.height;

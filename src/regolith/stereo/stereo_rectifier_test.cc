@@ -78,7 +78,11 @@ TEST(StereoRectifier, MasksLeaveOutWhatIsNotSeen) {
   EXPECT_EQ(mask.At(320, 240), 255);
   EXPECT_EQ(mask.At(320, 440), 0);
   EXPECT_EQ(rectifier.LeftMask(nullptr).At(320, 440), 255);
-  EXPECT_EQ(rectifier.RightMask().At(0, 0), 0);
+  // The corners of a rectified image reach beyond what a pincushion sees.
+  const StereoRectifier pincushion(Distorted(381.0, 0.2), Distorted(381.0, 0.2),
+                                   SE3({1, 0, 0, 0}, {0.12, 0.0, 0.0}));
+  EXPECT_EQ(pincushion.RightMask().At(0, 0), 0);
+  EXPECT_EQ(pincushion.RightMask().At(320, 240), 255);
 }
 
 TEST(StereoRectifier, ARightEyeOnTheLeftIsRefused) {
