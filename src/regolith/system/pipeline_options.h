@@ -13,6 +13,7 @@
 #include "regolith/lio/lidar_odometry_options.h"
 #include "regolith/stereo/stereo_options.h"
 #include "regolith/system/map_builder.h"
+#include "regolith/system/supervisor.h"
 #include "regolith/vio/lidar_depth_options.h"
 #include "regolith/vio/vio_options.h"
 
@@ -42,7 +43,13 @@ struct PipelineOptions {
   double visual_velocity_sigma = 0.05;
   StereoOptions stereo;
   VisualPlacesOptions places;  ///< loops that images confirm (kStereo)
-  BackendOptions backend;      ///< of an odometry that has none of its own
+  /// s after which the camera's side sees what the lidar's found (kLio): so far the one may be
+  /// ahead of the other, and so much later the results come at most.
+  double feedback_delay = 0.3;
+  /// s without scans, after which poses are made of what IMU, wheels and camera tell.
+  double lidar_silence = 0.5;
+  SupervisorOptions supervisor;
+  BackendOptions backend;  ///< of an odometry that has none of its own
   MapBuilderOptions map;
 
   /// Of the network that `features` names, where it names one. No setting: the program finds it.

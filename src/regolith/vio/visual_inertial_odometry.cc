@@ -19,6 +19,7 @@ namespace {
 
 /// Without images a state is made this often, so that wheels count and motion stays short.
 constexpr double kBlindInterval = 1.0;        // s
+constexpr double kLongestBlindTime = 1.0;     // s without an IMU
 constexpr double kKeyframeInterval = 3.0;     // s, of motion between keyframes at most
 constexpr double kFeaturelessInterval = 0.5;  // s, between keyframes that see little
 constexpr double kWheelsLate = 0.1;           // s, that an image waits for wheels
@@ -93,6 +94,11 @@ VisualInertialOdometry::VisualInertialOdometry(const VioOptions& options, const 
 std::vector<VioEstimate> VisualInertialOdometry::AddImu(const ImuSample& sample) {
   if (!samples_.empty() && sample.time <= samples_.back().time) return {};
   quality_.Add(sample);
+  const bool is_helped = expect_start_ > 0.0;
+  if (is_helped && is_running() &&
+      SecondsBetween(samples_.back().time, sample.time) > kLongestBlindTime) {
+    StopAtGap();
+  }
   samples_.push_back(sample);
   std::vector<VioEstimate> estimates = ProcessReady(false);
   if (is_running() && waiting_.empty() &&
@@ -103,6 +109,19 @@ std::vector<VioEstimate> VisualInertialOdometry::AddImu(const ImuSample& sample)
     estimates.back().has_image = false;
   }
   return estimates;
+}
+
+/// What images alone would make of a long time without an IMU is worse than what another odometry
+/// knows at its end: the next start is made from that.
+void VisualInertialOdometry::StopAtGap() {
+  ++resets_;
+  ++failures_["long IMU gap"];
+  window_.Stop();
+  samples_.clear();
+  start_.reset();
+  last_frame_.reset();
+  recent_.clear();
+  bad_frames_ = 0;
 }
 
 void VisualInertialOdometry::AddWheels(const WheelOdometry& odometry) {
@@ -164,7 +183,7 @@ void VisualInertialOdometry::TryToStart(bool all) {
   while (!waiting_.empty() && TimeOf(waiting_.front()) < samples_.front().time) {
     waiting_.pop_front();
   }
-  if (waiting_.empty() || StartFromState()) return;
+  if (waiting_.empty() || IsImuSlow() || StartFromState()) return;
   const TimeNs first = TimeOf(waiting_.front());
   const double seconds = SecondsBetween(first, samples_.back().time);
   if (seconds < std::max(options_.initialization_window, expect_start_) && !all) return;
@@ -173,12 +192,26 @@ void VisualInertialOdometry::TryToStart(bool all) {
   if (StartInMotion()) return;
   // Not yet: perhaps the next images tell more.
   waiting_.pop_front();
+  ++unexplained_images_;
+}
+
+/// Of what has come so far, from its first half second on.
+bool VisualInertialOdometry::IsImuSlow() {
+  const double seconds = SecondsBetween(samples_.front().time, samples_.back().time);
+  if (seconds < options_.rest_window) return false;
+  const double rate = static_cast<double>(samples_.size() - 1) / seconds;
+  if (rate >= options_.min_imu_rate) return false;
+  waiting_.clear();
+  start_notice_ = Concatenate("the IMU comes at ", rate, " Hz, below ", options_.min_imu_rate,
+                              " Hz: visual–inertial odometry does not start");
+  return true;
 }
 
 /// The window begins at the first image that waits.
 void VisualInertialOdometry::Begin(const NavState& state, const Eigen::Vector2d& tilt,
                                    const StartUncertainty& sigma) {
   const VioFrame& frame = waiting_.front();
+  start_notice_.clear();
   window_.Start(state, tilt, sigma, frame.stamp);
   window_.Observe(Observations(frame));
   last_frame_ = frame;
@@ -193,7 +226,7 @@ bool VisualInertialOdometry::FeaturesStand(const VioFrame& first, const VioFrame
 
 /// At the first image after the state that is known, since another odometry is ahead of images.
 bool VisualInertialOdometry::StartFromState() {
-  if (!start_) return false;
+  if (!start_ || start_->first.time < samples_.front().time) return false;
   const auto& [known, gravity_world] = *start_;
   const auto frame = std::find_if(waiting_.begin(), waiting_.end(), [&](const VioFrame& waiting) {
     return TimeOf(waiting) > start_->first.time;
@@ -538,6 +571,10 @@ std::vector<std::string> VisualInertialOdometry::Notices() const {
   std::vector<std::string> notices = quality_.Notices();
   if (!is_running()) notices.push_back("visual–inertial odometry never started");
   if (!start_notice_.empty()) notices.push_back(start_notice_);
+  if (unexplained_images_ > 0) {
+    notices.push_back(Concatenate("the first ", unexplained_images_,
+                                  " images did not tell how the camera moves: no poses for them"));
+  }
   for (const auto& [reason, count] : failures_) {
     notices.push_back(
         Concatenate("visual–inertial odometry started anew ", count, " times: ", reason));
