@@ -73,9 +73,10 @@ void Keep(std::vector<FrameReport> reports, RunRecord* record) {
 std::vector<double> Latencies(const std::vector<FrameReport>& frames, const Pacer& pacer) {
   std::vector<double> latencies;
   for (const FrameReport& frame : frames) {
-    if (frame.source == FrameSource::kImage ? !frame.visual && !frame.stereo : !frame.has_scan) {
-      continue;
-    }
+    const bool has_pose = frame.source == FrameSource::kScan ? frame.has_scan
+                          : frame.stereo ? frame.stereo->T_world_camera.has_value()
+                                         : frame.visual.has_value();
+    if (!has_pose) continue;
     const std::chrono::duration<double, std::milli> late = frame.completed - pacer.Due(frame.end);
     latencies.push_back(late.count());
   }
