@@ -43,6 +43,7 @@ StereoPipeline::StereoPipeline(const PipelineOptions& options, const RigCalibrat
       T_body_camera_(rig.cameras.at(left_camera_).T_imu_camera * frontend_.T_left_rectified()),
       odometry_(options.stereo, frontend_.camera(), T_body_camera_),
       options_(options.stereo),
+      selector_(options.backend.keyframes),
       min_loop_age_(options.backend.search.min_age),
       min_loop_way_(options.backend.search.min_way) {
   if (!options.backend.enabled || !options.backend.close_loops) return;
@@ -158,7 +159,7 @@ void StereoPipeline::CloseLoops(bool all) {
 
 void StereoPipeline::AddPlace(StereoPlace place) {
   const SE3 T_odom_body = BodyPose(place.T_world_camera);
-  if (!backend_->IsKeyframe(place.stamp, T_odom_body)) return;
+  if (!selector_.Select(place.stamp, T_odom_body)) return;
   const SE3 step = drift_.T_a_b.Inverse() * T_odom_body;
   const double way = step.translation.norm() + kTurnWay * LogSo3(step.rotation).norm();
   UncertainPose moved{step, Matrix6d::Zero()};

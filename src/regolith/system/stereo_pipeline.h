@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "regolith/backend/backend.h"
+#include "regolith/backend/keyframe_selector.h"
 #include "regolith/backend/visual_places.h"
 #include "regolith/cloud/map_point.h"
 #include "regolith/core/thread_pool.h"
@@ -90,6 +91,7 @@ class StereoPipeline {
   StereoOdometry odometry_;
   StereoOptions options_;
   std::unique_ptr<Backend> backend_;
+  KeyframeSelector selector_;
   std::unique_ptr<VisualPlaces> places_;
   UncertainPose drift_;  ///< T_odom_body of the back end's last keyframe
   double min_loop_age_;  ///< s
