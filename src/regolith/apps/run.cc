@@ -73,7 +73,10 @@ void Keep(std::vector<FrameReport> reports, RunRecord* record) {
 std::vector<double> Latencies(const std::vector<FrameReport>& frames, const Pacer& pacer) {
   std::vector<double> latencies;
   for (const FrameReport& frame : frames) {
-    if (frame.source == FrameSource::kImage ? !frame.visual : !frame.has_scan) continue;
+    const bool has_pose = frame.source == FrameSource::kScan ? frame.has_scan
+                          : frame.stereo ? frame.stereo->T_world_camera.has_value()
+                                         : frame.visual.has_value();
+    if (!has_pose) continue;
     const std::chrono::duration<double, std::milli> late = frame.completed - pacer.Due(frame.end);
     latencies.push_back(late.count());
   }
@@ -167,7 +170,8 @@ int Run(const RunArguments& arguments) {
   read.wheels = system.needs().wheels;
   read.cameras = system.needs().cameras;
   // The trajectory stands without them, unless it is made of them.
-  read.skip_absent_cameras = setup.pipeline.odometry != OdometryKind::kVio;
+  read.skip_absent_cameras = setup.pipeline.odometry != OdometryKind::kVio &&
+                             setup.pipeline.odometry != OdometryKind::kStereo;
   read.skip_absent_wheels = setup.pipeline.lio.lidar;
   read.skip_absent_lidar = system.needs().can_lack_lidar;
   read.cuts = setup.cuts;

@@ -93,6 +93,15 @@ std::string VisualCells(const std::optional<VioEstimate>& visual) {
   return buffer;
 }
 
+/// In the columns of visual odometry that it has too.
+std::string StereoCells(const StereoEstimate& stereo) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof buffer, ",%s,%d,%d,%d,%d,,,", StereoHealthName(stereo.health),
+                stereo.is_keyframe ? 1 : 0, stereo.tracking.inliers, stereo.tracking.close_tracked,
+                stereo.tracking.outliers);
+  return buffer;
+}
+
 std::string SupervisorCells(const FrameReport& frame) {
   std::string text = std::string(",") + (frame.led_by ? SubsystemName(*frame.led_by) : "nobody");
   for (const SubsystemState state : frame.states) {
@@ -114,7 +123,8 @@ std::string StatusTable(const std::vector<FrameReport>& frames) {
   for (const FrameReport& frame : frames) {
     text += SecondsText(frame.stamp) + "," + frame.leader;
     text += frame.source == FrameSource::kScan ? ScanCells(frame) : ImageCells(frame);
-    text += VisualCells(frame.visual) + SupervisorCells(frame) + "\n";
+    text += frame.stereo ? StereoCells(*frame.stereo) : VisualCells(frame.visual);
+    text += SupervisorCells(frame) + "\n";
   }
   return text;
 }

@@ -112,6 +112,8 @@ void AddLeader(const RunRecord& record, ReportData* data) {
       ExtendSpan(frame.leader.empty() ? "nothing" : frame.leader, seconds, &data->leader);
     } else if (frame.visual) {
       ExtendSpan(VioHealthName(frame.visual->health), seconds, &health);
+    } else if (frame.stereo) {
+      ExtendSpan(StereoHealthName(frame.stereo->health), seconds, &health);
     }
   }
   if (data->leader.empty()) data->leader = health;
@@ -139,7 +141,9 @@ void AddKeyframes(const SlamSystem& system, const RunRecord& record, const Traje
     return;
   }
   for (const FrameReport& frame : record.frames) {
-    if (!frame.visual || !frame.visual->is_keyframe) continue;
+    const bool is_keyframe =
+        (frame.visual && frame.visual->is_keyframe) || (frame.stereo && frame.stereo->is_keyframe);
+    if (!is_keyframe) continue;
     const auto T_world_body = trajectory.At(frame.stamp);
     if (T_world_body) data->keyframes.push_back({frame.stamp, *T_world_body});
   }

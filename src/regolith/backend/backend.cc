@@ -3,6 +3,7 @@
 #include "regolith/backend/backend.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "regolith/core/check.h"
 
@@ -85,7 +86,21 @@ bool Backend::Verify(const LoopCandidate& candidate, size_t new_keyframe) {
   record.verdict = verifier_.Verify(
       keyframes_.Submap(new_keyframe, old + 1, new_keyframe + 1, graph_),
       keyframes_.Submap(old, 0, new_keyframe, graph_), candidate.guess, graph_.pose(old).rotation);
-  const LoopMeasurement loop{old, new_keyframe, record.verdict.T_target_query};
+  return Enter(std::move(record));
+}
+
+void Backend::AddLoop(const LoopMeasurement& loop) {
+  REGOLITH_CHECK(loop.old_keyframe < loop.new_keyframe && loop.new_keyframe < keyframes_.size(),
+                 "loop ", loop.old_keyframe, " to ", loop.new_keyframe, " of ", keyframes_.size());
+  LoopRecord record{loop.old_keyframe, loop.new_keyframe, {}};
+  record.verdict.outcome = LoopOutcome::kAccepted;
+  record.verdict.T_target_query = loop.T_old_new;
+  if (Enter(std::move(record))) Update();
+}
+
+bool Backend::Enter(LoopRecord record) {
+  const LoopMeasurement loop{record.old_keyframe, record.new_keyframe,
+                             record.verdict.T_target_query};
   const bool is_verified = record.verdict.outcome == LoopOutcome::kAccepted;
   const bool is_driven = is_verified && consistency_.AgreesWithOdometry(loop, odometry_);
   if (is_verified && !is_driven) record.verdict.outcome = LoopOutcome::kInconsistent;

@@ -47,6 +47,9 @@ class Backend {
   /// Tries a loop that was proposed from elsewhere, by vision for instance: it has to pass the same
   /// tests as the back end's own. Whether it did; it may still wait for others to confirm it.
   bool TryLoop(const LoopCandidate& candidate, size_t new_keyframe);
+  /// Takes a loop that was measured and confirmed elsewhere: it still has to be what the odometry
+  /// could have driven, and others have to support it before it is used.
+  void AddLoop(const LoopMeasurement& loop);
   /// The odometry's poses as the back end has them now: each stands between its two keyframes.
   Trajectory Corrected(const Trajectory& odometry) const;
   /// T_world_odom at the newest keyframe.
@@ -73,6 +76,8 @@ class Backend {
   void AddNode(const KeyframeInput& input);
   bool FindLoops();
   bool Verify(const LoopCandidate& candidate, size_t new_keyframe);
+  /// Records a loop; whether it takes part.
+  bool Enter(LoopRecord record);
   /// Uses the loops that are accepted now, and brings the graph into agreement where that changed.
   void Update();
   bool Confirms(const LoopMeasurement& loop) const;

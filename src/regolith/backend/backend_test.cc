@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 
 #include "regolith/backend/keyframe_selector.h"
 #include "regolith/backend/test_ground_internal.h"
@@ -347,6 +348,74 @@ TEST(Backend, PosesBetweenKeyframesFollowBoth) {
   EXPECT_GT(lifted(5), 0.15);
   EXPECT_LT(lifted(5), 0.35);
   EXPECT_GT(lifted(6), lifted(5));
+}
+
+/// Two rounds of a square, 1 m a keyframe, with an odometry that turns too far; no lidar.
+class ConfirmedLoops : public testing::Test {
+ protected:
+  static constexpr size_t kRound = 24;
+
+  static SE3 Truth(size_t keyframe) {
+    const double angle = 2.0 * M_PI * static_cast<double>(keyframe) / kRound;
+    return {ExpSo3({0.0, 0.0, angle}), {4.0 * std::sin(angle), 4.0 - 4.0 * std::cos(angle), 0.0}};
+  }
+
+  void SetUp() override {
+    BackendOptions options;
+    options.close_loops = false;
+    backend_ = std::make_unique<Backend>(options, &threads_);
+    UncertainPose drift;
+    for (size_t i = 0; i < 2 * kRound; ++i) {
+      UncertainPose step;
+      if (i > 0) step.T_a_b = Truth(i - 1).Inverse() * Truth(i);
+      step.T_a_b.rotation = step.T_a_b.rotation * ExpSo3({0.0, 0.0, 0.004});
+      step.covariance.diagonal().head<3>().setConstant(1e-4);
+      step.covariance.diagonal().tail<3>().setConstant(1e-4);
+      drift = Compose(drift, step);
+      KeyframeInput input;
+      input.time = FromSeconds(2.0 * static_cast<double>(i));
+      input.T_odom_body = drift.T_a_b;
+      input.covariance = ExpToPlusCovariance(drift.covariance, drift.T_a_b);
+      backend_->Add(input);
+    }
+  }
+
+  LoopMeasurement Loop(size_t new_keyframe) const {
+    LoopMeasurement loop;
+    loop.old_keyframe = new_keyframe - kRound;
+    loop.new_keyframe = new_keyframe;
+    loop.T_old_new.covariance.diagonal().head<3>().setConstant(4e-5);
+    loop.T_old_new.covariance.diagonal().tail<3>().setConstant(2.5e-3);
+    return loop;
+  }
+
+  double LastError() const {
+    return (backend_->T_world_body(2 * kRound - 1).translation -
+            backend_->T_world_body(kRound - 1).translation)
+        .norm();
+  }
+
+  ThreadPool threads_{1};
+  std::unique_ptr<Backend> backend_;
+};
+
+TEST_F(ConfirmedLoops, LoopsThatAgreeBendTheGraph) {
+  ASSERT_GT(LastError(), 0.25);
+  backend_->AddLoop(Loop(40));
+  EXPECT_EQ(backend_->loops_accepted(), 0U);  // one alone is not believed
+  for (const size_t keyframe : {42U, 44U, 46U}) backend_->AddLoop(Loop(keyframe));
+  EXPECT_EQ(backend_->loops_accepted(), 4U);
+  EXPECT_LT(LastError(), 0.15);
+}
+
+TEST_F(ConfirmedLoops, OneThatOdometryCannotHaveDrivenIsRefused) {
+  for (const size_t keyframe : {40U, 42U, 44U}) backend_->AddLoop(Loop(keyframe));
+  LoopMeasurement wrong = Loop(46);
+  wrong.T_old_new.T_a_b.translation.x() = 6.0;
+  backend_->AddLoop(wrong);
+  EXPECT_EQ(backend_->loops_accepted(), 3U);
+  EXPECT_EQ(backend_->loops().back().verdict.outcome, LoopOutcome::kInconsistent);
+  EXPECT_LT(LastError(), 0.2);
 }
 
 }  // namespace

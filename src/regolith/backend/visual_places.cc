@@ -5,19 +5,12 @@
 #include <algorithm>
 #include <utility>
 
-#include <opencv2/calib3d.hpp>
-#include <opencv2/core.hpp>
-
 #include "regolith/core/check.h"
+#include "regolith/features/absolute_pose.h"
 #include "regolith/features/global_descriptor.h"
 #include "regolith/geometry/so3.h"
 
 namespace regolith {
-namespace {
-
-constexpr double kConfidence = 0.9999;  // of RANSAC, that it has met the best pose
-
-}  // namespace
 
 void VisualPlacesOptions::Check() const {
   matcher.Check();
@@ -26,6 +19,11 @@ void VisualPlacesOptions::Check() const {
   REGOLITH_CHECK(angle_error > 0.0, "angle_error=", angle_error);
   REGOLITH_CHECK(iterations >= 1, "iterations=", iterations);
   REGOLITH_CHECK(position_doubt > 0.0 && yaw_doubt > 0.0, "position_doubt=", position_doubt);
+  REGOLITH_CHECK(confirmed_inliers >= 6, "confirmed_inliers=", confirmed_inliers);
+  for (const double limit :
+       {confirmed_position, confirmed_rotation, position_sigma, rotation_sigma}) {
+    REGOLITH_CHECK(limit > 0.0, "limit=", limit);
+  }
 }
 
 VisualPlaces::VisualPlaces(const VisualPlacesOptions& options, const SE3& T_body_camera)
@@ -42,10 +40,9 @@ void VisualPlaces::Add(size_t keyframe, PlaceView view) {
   places_.push_back({keyframe, std::move(view)});
 }
 
-std::vector<LoopCandidate> VisualPlaces::Propose(size_t end) {
-  if (places_.empty()) return {};
+std::vector<std::pair<float, size_t>> VisualPlaces::MostSimilar(size_t end) const {
+  std::vector<std::pair<float, size_t>> similar;
   const Place& newest = places_.back();
-  std::vector<std::pair<float, size_t>> similar;  // place
   for (size_t i = 0; i + 1 < places_.size() && places_[i].keyframe < end; ++i) {
     const float similarity = Similarity(places_[i].view.global, newest.view.global);
     if (similarity >= static_cast<float>(options_.min_similarity)) {
@@ -57,9 +54,15 @@ std::vector<LoopCandidate> VisualPlaces::Propose(size_t end) {
   if (similar.size() > static_cast<size_t>(options_.max_places)) {
     similar.resize(static_cast<size_t>(options_.max_places));
   }
+  return similar;
+}
+
+std::vector<LoopCandidate> VisualPlaces::Propose(size_t end) {
+  if (places_.empty()) return {};
+  const PlaceView& newest = places_.back().view;
   std::vector<LoopCandidate> candidates;
-  for (const auto& [similarity, index] : similar) {
-    const std::optional<SE3> T_old_new = RelativePose(places_[index].view, newest.view);
+  for (const auto& [similarity, index] : MostSimilar(end)) {
+    const auto T_old_new = RelativePose(places_[index].view, newest, options_.min_inliers);
     if (!T_old_new) continue;
     LoopCandidate candidate;
     candidate.old_keyframe = places_[index].keyframe;
@@ -72,32 +75,55 @@ std::vector<LoopCandidate> VisualPlaces::Propose(size_t end) {
   return candidates;
 }
 
-std::optional<SE3> VisualPlaces::RelativePose(const PlaceView& old_view,
-                                              const PlaceView& new_view) {
+std::vector<LoopMeasurement> VisualPlaces::Confirmed(size_t end) {
+  if (places_.empty()) return {};
+  const Place& newest = places_.back();
+  std::vector<LoopMeasurement> loops;
+  for (const auto& [similarity, index] : MostSimilar(end)) {
+    const PlaceView& old_view = places_[index].view;
+    const auto T_old_new = RelativePose(old_view, newest.view, options_.confirmed_inliers);
+    if (!T_old_new) continue;
+    const auto T_new_old = RelativePose(newest.view, old_view, options_.confirmed_inliers);
+    if (!T_new_old) continue;
+    const SE3 back = T_new_old->Inverse();
+    const SE3 difference = T_old_new->Inverse() * back;
+    if (difference.translation.norm() > options_.confirmed_position ||
+        LogSo3(difference.rotation).norm() > options_.confirmed_rotation) {
+      continue;
+    }
+    LoopMeasurement loop;
+    loop.old_keyframe = places_[index].keyframe;
+    loop.new_keyframe = newest.keyframe;
+    loop.T_old_new.T_a_b =
+        T_body_camera_ * Interpolate(*T_old_new, back, 0.5) * T_body_camera_.Inverse();
+    loop.T_old_new.covariance.diagonal().head<3>().setConstant(options_.rotation_sigma *
+                                                               options_.rotation_sigma);
+    loop.T_old_new.covariance.diagonal().tail<3>().setConstant(options_.position_sigma *
+                                                               options_.position_sigma);
+    loops.push_back(loop);
+  }
+  return loops;
+}
+
+std::optional<SE3> VisualPlaces::RelativePose(const PlaceView& old_view, const PlaceView& new_view,
+                                              int min_inliers) {
   std::vector<FeatureMatch> matches;
   matcher_.Match(old_view.descriptors, new_view.descriptors, &matches);
-  std::vector<cv::Point3d> points;  // m, old camera
-  std::vector<cv::Point2d> rays;    // new camera, at unit depth
+  std::vector<Eigen::Vector3d> points;  // m, old camera
+  std::vector<Eigen::Vector3d> bearings;
   for (const FeatureMatch& match : matches) {
     const auto first = static_cast<size_t>(match.first);
-    const Eigen::Vector3d& ray = new_view.bearings[static_cast<size_t>(match.second)];
-    if (old_view.ranges[first] <= 0.0 || ray.z() <= 0.0) continue;
-    const Eigen::Vector3d point = old_view.ranges[first] * old_view.bearings[first];
-    points.emplace_back(point.x(), point.y(), point.z());
-    rays.emplace_back(ray.x() / ray.z(), ray.y() / ray.z());
+    if (old_view.ranges[first] <= 0.0) continue;
+    points.push_back(old_view.ranges[first] * old_view.bearings[first]);
+    bearings.push_back(new_view.bearings[static_cast<size_t>(match.second)]);
   }
-  if (points.size() < static_cast<size_t>(options_.min_inliers)) return std::nullopt;
-  cv::Vec3d rotation;
-  cv::Vec3d translation;
-  std::vector<int> inliers;
-  const bool found =
-      cv::solvePnPRansac(points, rays, cv::Matx33d::eye(), cv::noArray(), rotation, translation,
-                         false, options_.iterations, static_cast<float>(options_.angle_error),
-                         kConfidence, inliers, cv::SOLVEPNP_EPNP);
-  if (!found || inliers.size() < static_cast<size_t>(options_.min_inliers)) return std::nullopt;
-  const SE3 T_new_old(ExpSo3({rotation[0], rotation[1], rotation[2]}),
-                      {translation[0], translation[1], translation[2]});
-  return T_new_old.Inverse();
+  AbsolutePoseOptions ransac;
+  ransac.iterations = options_.iterations;
+  ransac.angle_error = options_.angle_error;
+  ransac.min_inliers = min_inliers;
+  const auto pose = EstimateAbsolutePose(points, bearings, ransac);
+  if (!pose) return std::nullopt;
+  return pose->T_camera_points.Inverse();
 }
 
 }  // namespace regolith

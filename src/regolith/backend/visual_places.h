@@ -4,10 +4,12 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "regolith/backend/loop_consistency.h"
 #include "regolith/backend/loop_detector.h"
 #include "regolith/features/descriptor_matcher.h"
 #include "regolith/features/feature_set.h"
@@ -31,6 +33,12 @@ struct VisualPlacesOptions {
   DescriptorMatcherOptions matcher;
   double position_doubt = 1.0;  ///< m that a pose found may be off by …
   double yaw_doubt = 0.08;      ///< … and rad
+  /// Of a loop that images alone confirm: features that agree, of either view in the other …
+  int confirmed_inliers = 30;
+  double confirmed_position = 0.15;  ///< m that the poses of the two directions may differ by …
+  double confirmed_rotation = 0.02;  ///< … and rad
+  double position_sigma = 0.05;      ///< m, 1 σ of such a loop …
+  double rotation_sigma = 0.006;     ///< … and rad
 
   void Check() const;
 };
@@ -47,13 +55,21 @@ class VisualPlaces {
   /// Candidates for the newest view among the keyframes before `end`.
   std::vector<LoopCandidate> Propose(size_t end);
 
+  /// Loops of the newest view with keyframes before `end` that need nothing else to confirm them
+  /// (Backend::AddLoop): the old points are seen by the new view, the new ones by the old, each by
+  /// enough features, and both say the same pose.
+  std::vector<LoopMeasurement> Confirmed(size_t end);
+
  private:
   struct Place {
     size_t keyframe = 0;
     PlaceView view;
   };
+  /// Indices of the most similar places before `end`, with the similarity.
+  std::vector<std::pair<float, size_t>> MostSimilar(size_t end) const;
   /// T_old_new of the cameras; nothing where too few features agree.
-  std::optional<SE3> RelativePose(const PlaceView& old_view, const PlaceView& new_view);
+  std::optional<SE3> RelativePose(const PlaceView& old_view, const PlaceView& new_view,
+                                  int min_inliers);
 
   VisualPlacesOptions options_;
   SE3 T_body_camera_;

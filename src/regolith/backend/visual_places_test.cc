@@ -99,5 +99,32 @@ TEST(VisualPlaces, AnotherPlaceMakesNoCandidate) {
   EXPECT_TRUE(places.Propose(20).empty());
 }
 
+TEST(VisualPlaces, WhatBothDirectionsSayIsConfirmed) {
+  VisualPlaces places(VisualPlacesOptions(), Mounting());
+  for (size_t i = 0; i < 20; ++i) places.Add(i, See(Place(i), SE3(), 100 + i));
+  const SE3 T_old_new_camera(ExpSo3({0.02, 0.1, -0.03}), {0.6, -0.1, 0.8});
+  places.Add(40, See(Place(7), T_old_new_camera, 200));
+  const std::vector<LoopMeasurement> loops = places.Confirmed(20);
+  ASSERT_EQ(loops.size(), 1U);
+  EXPECT_EQ(loops[0].old_keyframe, 7U);
+  EXPECT_EQ(loops[0].new_keyframe, 40U);
+  const SE3 expected = Mounting() * T_old_new_camera * Mounting().Inverse();
+  const Vector6d error = LogSe3(expected.Inverse() * loops[0].T_old_new.T_a_b);
+  EXPECT_LT(error.head<3>().norm(), 0.01);
+  EXPECT_LT(error.tail<3>().norm(), 0.05);
+  EXPECT_TRUE(places.Confirmed(7).empty());
+}
+
+TEST(VisualPlaces, DirectionsThatDisagreeConfirmNothing) {
+  VisualPlaces places(VisualPlacesOptions(), Mounting());
+  PlaceView old_view = See(Place(7), SE3(), 107);
+  // The old distances are wrong: the way there would be another than the way back.
+  for (double& range : old_view.ranges) range *= 1.5;
+  places.Add(0, std::move(old_view));
+  places.Add(40, See(Place(7), SE3(ExpSo3({0.02, 0.1, -0.03}), {0.6, -0.1, 0.8}), 200));
+  EXPECT_EQ(places.Propose(20).size(), 1U);
+  EXPECT_TRUE(places.Confirmed(20).empty());
+}
+
 }  // namespace
 }  // namespace regolith

@@ -8,6 +8,7 @@
 #include "regolith/config/backend_fields_internal.h"
 #include "regolith/config/features_fields_internal.h"
 #include "regolith/config/lego_loam_fields_internal.h"
+#include "regolith/config/stereo_fields_internal.h"
 #include "regolith/core/error.h"
 
 namespace regolith {
@@ -209,10 +210,11 @@ void Fields(Archive& archive, SupervisorOptions& supervisor) {
   archive("max_degenerate_directions", supervisor.max_degenerate_directions);
 }
 
-constexpr std::array<std::pair<const char*, OdometryKind>, 3> kOdometryNames = {
+constexpr std::array<std::pair<const char*, OdometryKind>, 4> kOdometryNames = {
     {{"lio", OdometryKind::kLio},
      {"lego_loam", OdometryKind::kLegoLoam},
-     {"vio", OdometryKind::kVio}}};
+     {"vio", OdometryKind::kVio},
+     {"stereo", OdometryKind::kStereo}}};
 
 template <typename Archive>
 void OdometryField(Archive& archive, OdometryKind& odometry) {
@@ -228,7 +230,7 @@ void OdometryField(Archive& archive, OdometryKind& odometry) {
         return;
       }
     }
-    archive.Fail("odometry", "`" + name + "`: expected lio, lego_loam or vio");
+    archive.Fail("odometry", "`" + name + "`: expected lio, lego_loam, vio or stereo");
   }
 }
 
@@ -244,6 +246,8 @@ void Fields(Archive& archive, PipelineOptions& options) {
   archive("vio", options.vio);
   archive("lidar_depth", options.lidar_depth);
   archive("visual_velocity_sigma", options.visual_velocity_sigma);
+  archive("stereo", options.stereo);
+  archive("places", options.places);
   archive("feedback_delay", options.feedback_delay);
   archive("lidar_silence", options.lidar_silence);
   archive("supervisor", options.supervisor);
@@ -264,6 +268,8 @@ PipelineOptions LoadPipeline(const YamlDocument& document) {
     options.lego_loam.Check();
     options.vio.Check();
     options.lidar_depth.Check();
+    options.stereo.Check();
+    options.places.Check();
     options.supervisor.Check();
     options.backend.Check();
     options.map.Check();

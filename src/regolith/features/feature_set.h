@@ -40,7 +40,10 @@ struct Descriptors {
 struct FeatureSet {
   std::vector<Eigen::Vector2f> pixels;  ///< pixel centres lie at integer coordinates
   std::vector<float> scores;            ///< comparable within one extractor only
-  Descriptors descriptors;              ///< none, or one a keypoint
+  /// Pixels of the image a pixel of the pyramid's level that the keypoint was found in; empty where
+  /// all were found in the image itself.
+  std::vector<float> scales;
+  Descriptors descriptors;  ///< none, or one a keypoint
 
   size_t size() const { return pixels.size(); }
 };

@@ -205,6 +205,7 @@ class OrbExtractor final : public FeatureExtractor {
       const auto index = static_cast<size_t>(row);
       features->pixels.push_back(unsorted_.pixels[index]);
       features->scores.push_back(unsorted_.scores[index]);
+      features->scales.push_back(unsorted_.scales[index]);
       features->descriptors.Append(unsorted_.descriptors, index);
     }
   }
@@ -218,6 +219,7 @@ class OrbExtractor final : public FeatureExtractor {
                               31.0F, static_cast<float>(angle), corner.response, 0);
       unsorted_.pixels.push_back(level.InImage(corner));
       unsorted_.scores.push_back(corner.response);
+      unsorted_.scales.push_back(level.columns_scale);
     }
     descriptor_->compute(level.image, keypoints_, described_);
     REGOLITH_CHECK(described_.rows == static_cast<int>(level.chosen.size()) &&

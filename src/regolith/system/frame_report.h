@@ -11,6 +11,7 @@
 #include "regolith/core/stopwatch.h"
 #include "regolith/features/feature_frontend.h"
 #include "regolith/geometry/se3.h"
+#include "regolith/stereo/stereo_odometry.h"
 #include "regolith/system/supervisor.h"
 #include "regolith/vio/visual_inertial_odometry.h"
 
@@ -48,6 +49,7 @@ struct FrameReport {
 
   FrontendStatus features;            ///< of an image
   std::optional<VioEstimate> visual;  ///< of an image that visual–inertial odometry has worked off
+  std::optional<StereoEstimate> stereo;  ///< of an image of a stereo pipeline
 };
 
 }  // namespace regolith

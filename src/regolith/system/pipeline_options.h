@@ -6,10 +6,12 @@
 #include <string>
 
 #include "regolith/backend/backend_options.h"
+#include "regolith/backend/visual_places.h"
 #include "regolith/features/feature_options.h"
 #include "regolith/features/model_manifest.h"
 #include "regolith/lio/lego_loam_options.h"
 #include "regolith/lio/lidar_odometry_options.h"
+#include "regolith/stereo/stereo_options.h"
 #include "regolith/system/map_builder.h"
 #include "regolith/system/supervisor.h"
 #include "regolith/vio/lidar_depth_options.h"
@@ -22,6 +24,7 @@ enum class OdometryKind {
   kLio,       ///< LidarOdometry
   kLegoLoam,  ///< LegoLoam
   kVio,       ///< VisualInertialOdometry: no lidar
+  kStereo,    ///< StereoPipeline: two cameras and nothing else
 };
 
 /// One pipeline: which subsystems run, and how.
@@ -38,6 +41,8 @@ struct PipelineOptions {
   LidarDepthOptions lidar_depth;
   /// m/s, 1 σ of a velocity that visual odometry tells the lidar's; 0: it does not tell.
   double visual_velocity_sigma = 0.05;
+  StereoOptions stereo;
+  VisualPlacesOptions places;  ///< loops that images confirm (kStereo)
   /// s after which the camera's side sees what the lidar's found (kLio): so far the one may be
   /// ahead of the other, and so much later the results come at most.
   double feedback_delay = 0.3;

@@ -74,7 +74,17 @@ SensorNeeds VisualNeeds(const PipelineOptions& options, const RigCalibration& ri
   return needs;
 }
 
+/// The two cameras alone; the lidar's stamps say when poses are wanted.
+SensorNeeds StereoNeeds(const PipelineOptions& options, const RigCalibration& rig) {
+  SensorNeeds needs;
+  needs.lidar = rig.lidar.has_value();
+  needs.can_lack_lidar = true;
+  needs.cameras = {options.tracked_camera, RightCamera(options, rig)};
+  return needs;
+}
+
 SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
+  if (options.odometry == OdometryKind::kStereo) return StereoNeeds(options, rig);
   if (options.odometry == OdometryKind::kVio) return VisualNeeds(options, rig);
   CheckLidar(options, rig);
   CheckInertialSensors(options, rig);
@@ -143,6 +153,11 @@ SlamSystem::SlamSystem(const PipelineOptions& options, const RigCalibration& rig
       lidar_worker_(threads->threads() > 1 ? kWaitingEvents : 0) {
   for (std::string& notice : LackingSensors(options_, rig)) {
     setup_notices_.push_back(std::move(notice));
+  }
+  if (options_.odometry == OdometryKind::kStereo) {
+    stereo_ = std::make_unique<StereoPipeline>(options_, rig, RightCamera(options_, rig),
+                                               camera_mask, threads);
+    return;
   }
   if (HasBackend(options_)) {
     backend_ = std::make_unique<BackendPart>(options_.backend, threads,
@@ -232,6 +247,7 @@ std::vector<FrameReport> SlamSystem::Process(SensorEvent event) {
   } else if (std::holds_alternative<WheelOdometry>(event)) {
     sensor_times_.push_back({count_, {Subsystem::kWheels, time}});
   }
+  if (stereo_) return ProcessStereo(event);
   const auto shared = std::make_shared<const SensorEvent>(std::move(event));
   const size_t known = lidar_ ? OlderThanFeedback(time) : 0;
   if (visual_) PostVisual(count_, known, shared);
@@ -239,6 +255,36 @@ std::vector<FrameReport> SlamSystem::Process(SensorEvent event) {
   ++count_;
   FollowLive(*shared);
   return Collect();
+}
+
+/// On the caller's thread: there is nothing beside it that could go on meanwhile.
+std::vector<FrameReport> SlamSystem::ProcessStereo(const SensorEvent& event) {
+  std::vector<FrameReport> reports;
+  if (const auto* scan = std::get_if<LidarScan>(&event)) stereo_->AddStamp(scan->stamp);
+  if (const auto* frame = std::get_if<CameraFrame>(&event)) {
+    reports = Report(stereo_->AddImage(*frame));
+  }
+  ++count_;
+  return reports;
+}
+
+std::vector<FrameReport> SlamSystem::Report(std::vector<StereoReport> pairs) {
+  std::vector<FrameReport> reports;
+  for (StereoReport& pair : pairs) {
+    FrameReport report;
+    report.source = FrameSource::kImage;
+    report.stamp = pair.estimate.stamp;
+    report.end = pair.estimate.stamp;
+    report.completed = std::chrono::steady_clock::now();
+    if (pair.estimate.T_world_camera) report.leader = "camera";
+    report.T_world_body = pair.T_world_body;
+    report.features = std::move(pair.features);
+    report.stages = std::move(pair.stages);
+    report.stereo = std::move(pair.estimate);
+    Supervise(count_, &report);
+    reports.push_back(std::move(report));
+  }
+  return reports;
 }
 
 std::vector<FrameReport> SlamSystem::Settle() {
@@ -249,6 +295,7 @@ std::vector<FrameReport> SlamSystem::Settle() {
 }
 
 std::vector<FrameReport> SlamSystem::Finish() {
+  if (stereo_) return Report(stereo_->Finish());
   RethrowFailure();
   std::vector<FrameReport> reports = Settle();
   if (visual_) PostVisual(count_, lidar_ ? count_ : 0, nullptr);
@@ -311,6 +358,8 @@ void SlamSystem::Supervise(size_t number, FrameReport* report) {
                 report->degenerate_directions <= options_.supervisor.max_degenerate_directions);
   } else if (report->visual && report->visual->has_image) {
     observe(Subsystem::kCamera, report->end, report->visual->health == VioHealth::kGood);
+  } else if (report->stereo) {
+    observe(Subsystem::kCamera, report->end, report->stereo->T_world_camera.has_value());
   }
   const TimeNs now = std::max(supervised_.value_or(report->end), report->end);
   report->led_by = supervisor_.Leader(now);
@@ -329,7 +378,18 @@ void SlamSystem::RethrowFailure() const {
 }
 
 const Trajectory& SlamSystem::odometry() const {
+  if (stereo_) return stereo_->odometry();
   return lidar_ ? lidar_->trajectory() : visual_->trajectory();
+}
+
+size_t SlamSystem::images_seen() const {
+  if (stereo_) return stereo_->images_seen();
+  return visual_ ? visual_->images() : 0;
+}
+
+const Backend* SlamSystem::backend() const {
+  if (stereo_) return stereo_->backend();
+  return backend_ ? &backend_->backend() : nullptr;
 }
 
 size_t SlamSystem::stamps_seen() const {
@@ -343,6 +403,7 @@ KeyframeCounts SlamSystem::keyframe_counts() const {
     return {backend.keyframes().size(), backend.loops_accepted(), backend.loops_rejected()};
   }
   if (lidar_) return lidar_->Counts();
+  if (stereo_) return stereo_->Counts();
   KeyframeCounts counts;
   counts.keyframes = visual_->keyframes();
   return counts;
@@ -355,6 +416,7 @@ std::vector<std::string> SlamSystem::Notices() const {
   };
   if (lidar_) add(lidar_->Notices());
   if (visual_) add(visual_->Notices());
+  if (stereo_) add(stereo_->Notices());
   std::string led;
   double others = 0.0;
   const double most = *std::max_element(led_seconds_.begin(), led_seconds_.end());
@@ -372,12 +434,14 @@ std::vector<std::string> SlamSystem::Notices() const {
 }
 
 Trajectory SlamSystem::trajectory() const {
+  if (stereo_) return stereo_->Refined();
   if (!lidar_) return visual_->Refined();
   if (backend_) return backend_->backend().Corrected(odometry());
   return lidar_->Refined().value_or(odometry());
 }
 
 std::vector<MapPoint> SlamSystem::MapPoints() const {
+  if (stereo_) return stereo_->MapPoints();
   if (!lidar_) return {};
   if (!backend_ && !lidar_->Refined()) return lidar_->map().points();
   const Trajectory best = trajectory();

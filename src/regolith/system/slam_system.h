@@ -21,6 +21,7 @@
 #include "regolith/system/lidar_part.h"
 #include "regolith/system/live_state.h"
 #include "regolith/system/pipeline_options.h"
+#include "regolith/system/stereo_pipeline.h"
 #include "regolith/system/supervisor.h"
 #include "regolith/system/visual_part.h"
 
@@ -79,23 +80,25 @@ class SlamSystem {
   /// The map as it lies with the best poses known now.
   std::vector<MapPoint> MapPoints() const;
   size_t scans_seen() const { return scans_seen_; }
-  size_t images_seen() const { return visual_ ? visual_->images() : 0; }
+  size_t images_seen() const;
   /// Stamps at which a pose is expected: scans (and in a time without them, moments at their
   /// rate), or images where no scan came.
   size_t stamps_seen() const;
   /// New starts of the odometry that the trajectory is made of, had it lost its way.
-  size_t resets() const { return lidar_ ? 0 : visual_->resets(); }
+  size_t resets() const { return lidar_ ? 0 : visual_restarts(); }
   /// The same of visual odometry, whether it leads or helps.
   size_t visual_restarts() const { return visual_ ? visual_->resets() : 0; }
   KeyframeCounts keyframe_counts() const;
   /// Keyframes and loops; null where the pipeline has no back end, or one inside its odometry.
-  const Backend* backend() const { return backend_ ? &backend_->backend() : nullptr; }
+  const Backend* backend() const;
   std::vector<std::string> Notices() const;
 
  private:
   template <typename Value>
   using Numbered = std::deque<std::pair<size_t, Value>>;  ///< by the measurement it came of
 
+  std::vector<FrameReport> ProcessStereo(const SensorEvent& event);
+  std::vector<FrameReport> Report(std::vector<StereoReport> pairs);
   void PostVisual(size_t number, size_t known, std::shared_ptr<const SensorEvent> event);
   void PostLidar(size_t number, std::shared_ptr<const SensorEvent> event);
   size_t OlderThanFeedback(TimeNs time);
@@ -108,9 +111,10 @@ class SlamSystem {
   std::vector<std::string> setup_notices_;  ///< what the rig lacks of what the options ask for
   PipelineOptions options_;                 ///< as this rig can serve them
   SensorNeeds needs_;
-  std::unique_ptr<VisualPart> visual_;    ///< null without a camera
-  std::unique_ptr<LidarPart> lidar_;      ///< null where the camera's side leads
-  std::unique_ptr<BackendPart> backend_;  ///< null where there is none
+  std::unique_ptr<StereoPipeline> stereo_;  ///< alone where it is there
+  std::unique_ptr<VisualPart> visual_;      ///< null without a camera
+  std::unique_ptr<LidarPart> lidar_;        ///< null where the camera's side leads
+  std::unique_ptr<BackendPart> backend_;    ///< null where there is none
 
   std::mutex exchange_;  ///< guards what the sides leave for each other and for the caller
   Numbered<std::vector<BodyVelocity>> velocities_;

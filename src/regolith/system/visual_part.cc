@@ -20,19 +20,21 @@ constexpr double kStartWait = 3.0;
 }  // namespace
 
 std::string RightCamera(const PipelineOptions& options, const RigCalibration& rig) {
+  const std::string asking =
+      options.odometry == OdometryKind::kStereo ? "pipeline " + options.name : "vio.stereo";
   const auto left = rig.cameras.find(options.tracked_camera);
   const auto right = rig.cameras.find("right");
   if (left == rig.cameras.end() || right == rig.cameras.end() || left->first != "left") {
-    throw InputError("vio.stereo",
+    throw InputError(asking,
                      "needs the cameras `left` and `right` in the rig and `tracked_camera: left`; "
-                     "leave it out for one camera");
+                     "with one camera take another pipeline or leave vio.stereo out");
   }
   const double baseline =
       (left->second.T_imu_camera.translation - right->second.T_imu_camera.translation).norm();
   if (baseline < kLeastBaseline) {
-    throw InputError("vio.stereo", Concatenate("the rig's cameras `left` and `right` are ",
-                                               baseline, " m apart, expected at least ",
-                                               kLeastBaseline, "; check their T_imu_camera"));
+    throw InputError(asking, Concatenate("the rig's cameras `left` and `right` are ", baseline,
+                                         " m apart, expected at least ", kLeastBaseline,
+                                         "; check their T_imu_camera"));
   }
   return right->first;
 }
