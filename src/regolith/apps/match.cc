@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <thread>
 
-#include "regolith/apps/feature_setup.h"
+#include "regolith/config/feature_setup.h"
 #include "regolith/apps/match_outputs.h"
 #include "regolith/apps/output_folder.h"
 #include "regolith/apps/progress.h"

@@ -13,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "regolith/apps/install_paths.h"
+#include "regolith/config/install_paths.h"
 #include "regolith/apps/output_folder.h"
 #include "regolith/config/scenario_config.h"
 #include "regolith/core/check.h"

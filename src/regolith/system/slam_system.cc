@@ -74,22 +74,6 @@ SensorNeeds VisualNeeds(const PipelineOptions& options, const RigCalibration& ri
   return needs;
 }
 
-SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
-  if (options.odometry == OdometryKind::kVio) return VisualNeeds(options, rig);
-  CheckInertialSensors(options, rig);
-  SensorNeeds needs;
-  const bool tracks = TracksImages(options, rig);
-  const bool is_lio = options.odometry == OdometryKind::kLio;
-  needs.imu = is_lio && options.lio.imu && rig.imu.has_value();
-  needs.lidar = true;
-  needs.wheels = is_lio && options.lio.wheels && rig.wheels.has_value();
-  if (tracks) needs.cameras.push_back(options.tracked_camera);
-  if (tracks && options.visual && options.vio.stereo) {
-    needs.cameras.push_back(RightCamera(options, rig));
-  }
-  return needs;
-}
-
 std::unique_ptr<ScanOdometry> MakeScanOdometry(const PipelineOptions& options,
                                                const RigCalibration& rig, ThreadPool* threads) {
   if (options.odometry == OdometryKind::kVio) return nullptr;
@@ -127,6 +111,22 @@ FrameReport ReportOf(const ScanEstimate& estimate) {
 
 bool TracksImages(const PipelineOptions& options, const RigCalibration& rig) {
   return rig.cameras.count(options.tracked_camera) > 0;
+}
+
+SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
+  if (options.odometry == OdometryKind::kVio) return VisualNeeds(options, rig);
+  CheckInertialSensors(options, rig);
+  SensorNeeds needs;
+  const bool tracks = TracksImages(options, rig);
+  const bool is_lio = options.odometry == OdometryKind::kLio;
+  needs.imu = is_lio && options.lio.imu && rig.imu.has_value();
+  needs.lidar = true;
+  needs.wheels = is_lio && options.lio.wheels && rig.wheels.has_value();
+  if (tracks) needs.cameras.push_back(options.tracked_camera);
+  if (tracks && options.visual && options.vio.stereo) {
+    needs.cameras.push_back(RightCamera(options, rig));
+  }
+  return needs;
 }
 
 SlamSystem::SlamSystem(const PipelineOptions& options, const RigCalibration& rig,
@@ -371,6 +371,7 @@ std::vector<FrameReport> SlamSystem::Track(const CameraFrame& frame) {
   report.leader = "camera";
   report.features = tracked.status;
   report.stages = std::move(tracked.stages);
+  tracks_ = {frame.time, tracked.features};
   if (!visual_) return {report};
   VioFrame features{frame.time, std::move(tracked.features), {}};
   if (stereo_ && waiting_right_ &&

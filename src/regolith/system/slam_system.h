@@ -61,6 +61,15 @@ struct FrameReport {
 /// Whether a pipeline tracks images of this rig: it names a camera that is there.
 bool TracksImages(const PipelineOptions& options, const RigCalibration& rig);
 
+/// What a pipeline reads of this rig. Throws InputError as SlamSystem does.
+SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig);
+
+/// The features of an image, as tracked.
+struct ImageTracks {
+  TimeNs stamp = 0;
+  std::vector<TrackedFeature> features;
+};
+
 /// A whole pipeline: takes measurements in order of their stamps and makes a trajectory and a map
 /// of them. The same code serves recordings and live sensors, and it never waits for a clock.
 class SlamSystem {
@@ -91,6 +100,8 @@ class SlamSystem {
   /// New starts of an odometry that had lost its way.
   size_t resets() const { return visual_ ? visual_->resets() : 0; }
   KeyframeCounts keyframe_counts() const;
+  /// Of the last image that was tracked, to be shown.
+  const ImageTracks& tracks() const { return tracks_; }
   /// Keyframes and loops; null where the pipeline has no back end, or one inside its odometry.
   const Backend* backend() const { return backend_.get(); }
   std::vector<std::string> Notices() const;
@@ -125,6 +136,7 @@ class SlamSystem {
   std::optional<CameraFrame> waiting_right_;  ///< for its left one
   size_t pairs_missed_ = 0;
   std::unique_ptr<ImageTracker> tracker_;  ///< null where no images are tracked
+  ImageTracks tracks_;
   MapBuilder map_;
   Trajectory odometry_;
   size_t scans_seen_ = 0;

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Not one of the exported headers: it names ROS types, and is for .cc files only.
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include "regolith/ros/node_setup.h"
+#include "regolith/ros/ros_messages_internal.h"
+
+namespace regolith {
+
+/// Lets something happen so often at most, by the clock.
+class Pace {
+ public:
+  explicit Pace(double seconds) : period_(seconds) {}
+  bool IsDue();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::chrono::duration<double> period_;
+  std::optional<Clock::time_point> last_;
+};
+
+/// What a SLAM node publishes. The estimator's thread and that of the callbacks may both call it.
+class SlamOutputs {
+ public:
+  SlamOutputs(const NodeSetup& setup, ros::NodeHandle private_node);
+
+  /// In the estimator's thread, after each measurement.
+  void AfterMeasurement(const SlamSystem& system, const SensorEvent& event,
+                        const std::vector<FrameReport>& reports);
+  void AfterReset(const SlamSystem& system);
+
+  /// The newest state in the frame `odom`, and the body's rate (rad/s, frame `imu`).
+  void PublishOdometry(const NavState& state, const Eigen::Vector3d& rate);
+
+  /// What is known of the pipeline, but for the queue.
+  PipelineDiagnostics diagnostics() const;
+
+ private:
+  void AfterPose(const SlamSystem& system, const FrameReport& report);
+  void Draw(const SlamSystem& system, const SensorEvent& event);
+  void Note(const SlamSystem& system, const std::vector<FrameReport>& reports);
+  void PublishSensorFrames();
+
+  const NodeSetup& setup_;
+  SE3 T_imu_base_;
+  ros::Publisher odometry_;
+  ros::Publisher pose_;
+  ros::Publisher path_;
+  ros::Publisher map_;
+  ros::Publisher image_;
+  ros::Publisher loops_;
+  ros::Publisher tf_;
+  ros::Publisher tf_static_;
+  Pace path_pace_;
+  Pace map_pace_;
+  Pace image_pace_;
+  Pace tf_pace_;
+  Pace note_pace_;
+  std::optional<CameraFrame> last_frame_;  ///< of the tracked camera, not yet drawn
+
+  mutable std::mutex mutex_;
+  SE3 T_map_odom_;
+  PipelineDiagnostics diagnostics_;
+};
+
+}  // namespace regolith
