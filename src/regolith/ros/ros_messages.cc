@@ -31,27 +31,6 @@ void SetPixel(int column, int row, const std::array<uint8_t, 3>& colour,
   std::copy(colour.begin(), colour.end(), image->data.begin() + static_cast<ptrdiff_t>(place));
 }
 
-void AddPose(TimeNs time, const SE3& T_map_base, nav_msgs::Path* path) {
-  geometry_msgs::PoseStamped stamped;
-  stamped.header.frame_id = path->header.frame_id;
-  stamped.header.stamp = ToRosTime(time);
-  stamped.pose = PoseMessage(T_map_base);
-  path->poses.push_back(std::move(stamped));
-}
-
-void AddThinned(const Trajectory& trajectory, const SE3& T_imu_base, nav_msgs::Path* path) {
-  double since = kPathStep;
-  const Span<const StampedPose> poses = trajectory.poses();
-  for (size_t i = 0; i < poses.size(); ++i) {
-    if (i > 0) {
-      since += (poses[i].T_world_body.translation - poses[i - 1].T_world_body.translation).norm();
-    }
-    if (since < kPathStep) continue;
-    since = 0.0;
-    AddPose(poses[i].time, poses[i].T_world_body * T_imu_base, path);
-  }
-}
-
 visualization_msgs::Marker EmptyMarker(TimeNs time, const std::string& frame,
                                        const std::string& name, int32_t type) {
   visualization_msgs::Marker marker;
@@ -154,20 +133,36 @@ geometry_msgs::PoseWithCovarianceStamped PoseWithCovariance(TimeNs time, const S
   return message;
 }
 
-nav_msgs::Path PathMessage(const SlamSystem& system, const SE3& T_imu_base,
-                           const std::string& map_frame) {
-  nav_msgs::Path path;
-  path.header.frame_id = map_frame;
-  if (system.odometry().empty()) return path;
-  const StampedPose& newest = system.odometry().poses().back();
-  path.header.stamp = ToRosTime(newest.time);
+std::vector<StampedPose> KeyPoses(const SlamSystem& system, const SE3& T_imu_base) {
+  std::vector<StampedPose> poses;
   if (const Backend* const backend = system.backend()) {
     for (size_t i = 0; i < backend->keyframes().size(); ++i) {
-      AddPose(backend->keyframes()[i].time, backend->T_world_body(i) * T_imu_base, &path);
+      poses.push_back({backend->keyframes()[i].time, backend->T_world_body(i) * T_imu_base});
     }
-    AddPose(newest.time, backend->T_world_odom() * newest.T_world_body * T_imu_base, &path);
-  } else {
-    AddThinned(system.trajectory(), T_imu_base, &path);
+    return poses;
+  }
+  const Trajectory trajectory = system.trajectory();
+  for (const StampedPose& pose : trajectory.poses()) {
+    const SE3 T_map_base = pose.T_world_body * T_imu_base;
+    if (!poses.empty() &&
+        (T_map_base.translation - poses.back().T_world_body.translation).norm() < kPathStep) {
+      continue;
+    }
+    poses.push_back({pose.time, T_map_base});
+  }
+  return poses;
+}
+
+nav_msgs::Path PathMessage(Span<const StampedPose> poses, const std::string& map_frame) {
+  nav_msgs::Path path;
+  path.header.frame_id = map_frame;
+  if (!poses.empty()) path.header.stamp = ToRosTime(poses.back().time);
+  for (const StampedPose& pose : poses) {
+    geometry_msgs::PoseStamped stamped;
+    stamped.header.frame_id = map_frame;
+    stamped.header.stamp = ToRosTime(pose.time);
+    stamped.pose = PoseMessage(pose.T_world_body);
+    path.poses.push_back(std::move(stamped));
   }
   return path;
 }

@@ -42,9 +42,11 @@ geometry_msgs::PoseWithCovarianceStamped PoseWithCovariance(TimeNs time, const S
                                                             const Matrix6d& covariance,
                                                             const std::string& map_frame);
 
-/// Keyframes, then the newest pose; of the base.
-nav_msgs::Path PathMessage(const SlamSystem& system, const SE3& T_imu_base,
-                           const std::string& map_frame);
+/// Where the base has been in the map: keyframes where there is a back end, else poses half a metre
+/// apart.
+std::vector<StampedPose> KeyPoses(const SlamSystem& system, const SE3& T_imu_base);
+
+nav_msgs::Path PathMessage(Span<const StampedPose> poses, const std::string& map_frame);
 
 /// Points of float32 x y z intensity.
 sensor_msgs::PointCloud2 CloudMessage(TimeNs time, Span<const MapPoint> points,

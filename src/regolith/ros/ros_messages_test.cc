@@ -99,13 +99,24 @@ TEST(RosMessages, ANodeThatCannotFollowSaysSo) {
   EXPECT_THAT(message.message, HasSubstr("2 scans"));
 }
 
-TEST(RosMessages, APathWithoutPosesIsEmpty) {
+TEST(RosMessages, AStartWithoutPosesHasNoPathAndNoLoops) {
   RigCalibration rig;
   rig.lidar.emplace();
   ThreadPool threads(1);
   const SlamSystem system({}, rig, &threads);
-  EXPECT_TRUE(PathMessage(system, SE3(), "map").poses.empty());
+  EXPECT_TRUE(KeyPoses(system, SE3()).empty());
+  EXPECT_TRUE(PathMessage({}, "map").poses.empty());
   EXPECT_TRUE(LoopsMessage(system, 0, "map").markers.empty());
+}
+
+TEST(RosMessages, APathHasAStampAPose) {
+  const std::vector<StampedPose> poses = {{FromSeconds(1.0), SE3()},
+                                          {FromSeconds(2.0), kTurnedLeft}};
+  const auto path = PathMessage(poses, "map");
+  ASSERT_EQ(path.poses.size(), 2U);
+  EXPECT_EQ(path.poses[0].header.stamp.sec, 1U);
+  EXPECT_EQ(path.header.stamp.sec, 2U);
+  EXPECT_EQ(path.poses[1].pose.position.y, 2.0);
 }
 
 }  // namespace

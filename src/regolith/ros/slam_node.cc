@@ -43,13 +43,13 @@ class SlamNode {
         outputs_(setup_, private_node_),
         live_([this] { return MakeSlamSystem(setup_, &threads_); }, setup_.topics.size(),
               setup_.rig.gravity, setup_.options.live,
-              [this](const SlamSystem& system, const SensorEvent& event,
+              [this](SlamSystem& system, const SensorEvent& event,
                      const std::vector<FrameReport>& reports) {
-                AfterMeasurement(system, event, reports);
+                outputs_.AfterMeasurement(system, event, reports);
               },
-              [this](const SlamSystem& system, const std::string& reason) {
+              [this](const std::string& reason) {
                 LogWarning("everything begins anew: " + reason);
-                outputs_.AfterReset(system);
+                outputs_.AfterReset();
               }) {
     for (const SensorTopic& sensor : setup_.topics) inputs_.emplace_back(sensor, setup_.rig);
     for (size_t i = 0; i < inputs_.size(); ++i) Subscribe(i);
@@ -95,30 +95,6 @@ class SlamNode {
     outputs_.PublishOdometry(*state, sample.angular_velocity - state->gyro_bias);
   }
 
-  void AfterMeasurement(const SlamSystem& system, const SensorEvent& event,
-                        const std::vector<FrameReport>& reports) {
-    outputs_.AfterMeasurement(system, event, reports);
-    if (system.needs().imu || reports.empty() || system.odometry().empty()) return;
-    // Without an IMU there is no more to say than the poses themselves.
-    const Span<const StampedPose> poses = system.odometry().poses();
-    if (poses.back().time == last_pose_) return;
-    last_pose_ = poses.back().time;
-    NavState state;
-    state.time = last_pose_;
-    state.T_world_imu = poses.back().T_world_body;
-    Eigen::Vector3d rate = Eigen::Vector3d::Zero();
-    if (poses.size() > 1) {
-      const StampedPose& before = poses[poses.size() - 2];
-      const double seconds = SecondsBetween(before.time, state.time);
-      state.v_world_imu =
-          (state.T_world_imu.translation - before.T_world_body.translation) / seconds;
-      const Eigen::AngleAxisd turn(before.T_world_body.rotation.conjugate() *
-                                   state.T_world_imu.rotation);
-      rate = turn.angle() / seconds * turn.axis();
-    }
-    outputs_.PublishOdometry(state, rate);
-  }
-
   /// A service without arguments; where it writes to is a parameter, read when it is called.
   void Offer(const std::string& name, std::function<std::string()> action) {
     services_.push_back(
@@ -139,7 +115,7 @@ class SlamNode {
   std::string SaveMap() {
     const std::string path = TextParameter(private_node_, "map_file", "map.ply");
     std::vector<MapPoint> points;
-    live_.Ask([&](const SlamSystem& system) { points = system.MapPoints(); });
+    live_.Ask([&](SlamSystem& system) { points = system.MapPoints(); });
     WritePly(path, points);
     return Concatenate(points.size(), " points written to ", path);
   }
@@ -147,7 +123,7 @@ class SlamNode {
   std::string SaveTrajectory() {
     const std::string path = TextParameter(private_node_, "trajectory_file", "trajectory.tum");
     Trajectory trajectory;
-    live_.Ask([&](const SlamSystem& system) { trajectory = system.trajectory(); });
+    live_.Ask([&](SlamSystem& system) { trajectory = system.trajectory(); });
     WriteTum(path, trajectory.poses());
     return Concatenate(trajectory.size(), " poses of the IMU written to ", path);
   }
@@ -195,8 +171,7 @@ class SlamNode {
   ros::WallTimer timer_;
   std::map<std::string, diagnostic_msgs::DiagnosticStatus::_level_type> told_;
   size_t dropped_before_ = 0;
-  TimeNs last_pose_ = 0;  ///< the worker's
-  LiveSlam live_;         ///< the last, so that its thread ends first
+  LiveSlam live_;  ///< the last, so that its thread ends first
 };
 
 int RunNode() {

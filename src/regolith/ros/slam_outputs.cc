@@ -10,8 +10,6 @@
 namespace regolith {
 namespace {
 
-constexpr double kNotePeriod = 0.2;  // s
-
 SE3 MapFromOdom(const SlamSystem& system) {
   if (const Backend* const backend = system.backend()) return backend->T_world_odom();
   return SE3();
@@ -38,10 +36,9 @@ SlamOutputs::SlamOutputs(const NodeSetup& setup, ros::NodeHandle private_node)
       tf_(private_node.advertise<tf2_msgs::TFMessage>("/tf", 100)),
       tf_static_(private_node.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true)),
       path_pace_(1.0 / setup.options.path_rate),
-      map_pace_(setup.options.map_period),
+      refresh_pace_(setup.options.map_period),
       image_pace_(1.0 / setup.options.image_rate),
-      tf_pace_(1.0 / setup.options.tf_rate),
-      note_pace_(kNotePeriod) {
+      tf_pace_(1.0 / setup.options.tf_rate) {
   diagnostics_.pipeline = setup.pipeline.name;
   PublishSensorFrames();
 }
@@ -78,37 +75,68 @@ void SlamOutputs::PublishOdometry(const NavState& state, const Eigen::Vector3d& 
   tf_.publish(message);
 }
 
-void SlamOutputs::AfterMeasurement(const SlamSystem& system, const SensorEvent& event,
+void SlamOutputs::AfterMeasurement(SlamSystem& system, const SensorEvent& event,
                                    const std::vector<FrameReport>& reports) {
   Draw(system, event);
-  if (reports.empty()) return;
-  const bool has_scans = system.scans_seen() > 0;
   for (const FrameReport& report : reports) {
-    const bool is_pose = report.source == FrameSource::kScan || (!has_scans && report.visual);
-    if (is_pose && !system.odometry().empty()) AfterPose(system, report);
+    Note(system, report);
+    const bool is_scan = report.source == FrameSource::kScan;
+    if (is_scan || (system.scans_seen() == 0 && report.visual)) AfterPose(system, report);
   }
-  if (note_pace_.IsDue()) Note(system, reports);
 }
 
-void SlamOutputs::AfterPose(const SlamSystem& system, const FrameReport& report) {
+void SlamOutputs::AfterPose(SlamSystem& system, const FrameReport& report) {
   const SlamNodeOptions& options = setup_.options;
   const SE3 T_map_odom = MapFromOdom(system);
+  const SE3 T_map_base = T_map_odom * report.T_world_body * T_imu_base_;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     T_map_odom_ = T_map_odom;
   }
-  pose_.publish(PoseWithCovariance(report.stamp, T_map_odom * report.T_world_body * T_imu_base_,
-                                   report.covariance, options.map_frame));
-  if (path_pace_.IsDue()) {
-    path_.publish(PathMessage(system, T_imu_base_, options.map_frame));
-    const auto loops = LoopsMessage(system, report.stamp, options.map_frame);
-    if (!loops.markers.empty()) loops_.publish(loops);
+  pose_.publish(PoseWithCovariance(report.stamp, T_map_base, report.covariance, options.map_frame));
+  if (!system.needs().imu) PublishPoseWithoutImu(report);
+  last_pose_ = {report.stamp, report.T_world_body};
+  if (refresh_pace_.IsDue()) Refresh(system, report);
+  if (!path_pace_.IsDue()) return;
+  std::vector<StampedPose> path = key_poses_;
+  path.push_back({report.stamp, T_map_base});
+  path_.publish(PathMessage(path, options.map_frame));
+}
+
+/// Without an IMU there is no more to say than the poses themselves.
+void SlamOutputs::PublishPoseWithoutImu(const FrameReport& report) {
+  NavState state;
+  state.time = report.stamp;
+  state.T_world_imu = report.T_world_body;
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();
+  if (last_pose_ && last_pose_->time < state.time) {
+    const double seconds = SecondsBetween(last_pose_->time, state.time);
+    const SE3& before = last_pose_->T_world_body;
+    state.v_world_imu = (state.T_world_imu.translation - before.translation) / seconds;
+    const Eigen::AngleAxisd turn(before.rotation.conjugate() * state.T_world_imu.rotation);
+    rate = turn.angle() / seconds * turn.axis();
   }
-  if (map_.getNumSubscribers() > 0 && map_pace_.IsDue()) {
+  PublishOdometry(state, rate);
+}
+
+/// What loops change, and what takes time to ask for.
+void SlamOutputs::Refresh(SlamSystem& system, const FrameReport& report) {
+  const SlamNodeOptions& options = setup_.options;
+  key_poses_ = KeyPoses(system, T_imu_base_);
+  const auto loops = LoopsMessage(system, report.stamp, options.map_frame);
+  if (!loops.markers.empty()) loops_.publish(loops);
+  if (map_.getNumSubscribers() > 0) {
     MapBuilder thinned({options.map_voxel_size, options.map_max_points});
     thinned.Add(system.MapPoints(), 0);
     map_.publish(CloudMessage(report.stamp, thinned.points(), options.map_frame));
   }
+  const KeyframeCounts counts = system.keyframe_counts();
+  const std::vector<std::string> notices = system.Notices();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  diagnostics_.keyframes = counts.keyframes;
+  diagnostics_.loops = counts.loops_accepted;
+  diagnostics_.restarts = system.resets();
+  diagnostics_.notices = notices;
 }
 
 /// An image is shown as soon as its features are tracked; of a stereo pair that is when the other
@@ -123,28 +151,27 @@ void SlamOutputs::Draw(const SlamSystem& system, const SensorEvent& event) {
   last_frame_.reset();
 }
 
-void SlamOutputs::Note(const SlamSystem& system, const std::vector<FrameReport>& reports) {
-  const KeyframeCounts counts = system.keyframe_counts();
-  const std::vector<std::string> notices = system.Notices();
+void SlamOutputs::Note(const SlamSystem& system, const FrameReport& report) {
+  const bool is_pose = report.source == FrameSource::kScan || system.scans_seen() == 0;
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (const FrameReport& report : reports) {
-    if (report.visual) diagnostics_.health = VioHealthName(report.visual->health);
-    if (report.source != FrameSource::kScan && system.scans_seen() > 0) continue;
-    diagnostics_.leader = report.leader;
-    diagnostics_.at_rest = report.at_rest;
-    diagnostics_.degenerate_directions = report.degenerate_directions;
+  if (report.visual) diagnostics_.health = VioHealthName(report.visual->health);
+  if (!is_pose) return;
+  diagnostics_.leader = report.leader;
+  diagnostics_.at_rest = report.at_rest;
+  diagnostics_.degenerate_directions = report.degenerate_directions;
+  if (report.source != FrameSource::kScan && !report.visual) return;
+  if (last_pose_) {
+    diagnostics_.distance +=
+        (report.T_world_body.translation - last_pose_->T_world_body.translation).norm();
   }
-  diagnostics_.has_pose = !system.odometry().empty();
-  diagnostics_.poses = system.odometry().size();
-  diagnostics_.distance = system.odometry().Length();
-  diagnostics_.keyframes = counts.keyframes;
-  diagnostics_.loops = counts.loops_accepted;
-  diagnostics_.restarts = system.resets();
-  diagnostics_.notices = notices;
+  diagnostics_.has_pose = true;
+  ++diagnostics_.poses;
 }
 
-void SlamOutputs::AfterReset(const SlamSystem& system) {
+void SlamOutputs::AfterReset() {
   last_frame_.reset();
+  last_pose_.reset();
+  key_poses_.clear();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     T_map_odom_ = SE3();
@@ -152,7 +179,7 @@ void SlamOutputs::AfterReset(const SlamSystem& system) {
     fresh.pipeline = diagnostics_.pipeline;
     diagnostics_ = fresh;
   }
-  path_.publish(PathMessage(system, T_imu_base_, setup_.options.map_frame));
+  path_.publish(PathMessage({}, setup_.options.map_frame));
   map_.publish(CloudMessage(0, {}, setup_.options.map_frame));
 }
 

@@ -34,9 +34,9 @@ class SlamOutputs {
   SlamOutputs(const NodeSetup& setup, ros::NodeHandle private_node);
 
   /// In the estimator's thread, after each measurement.
-  void AfterMeasurement(const SlamSystem& system, const SensorEvent& event,
+  void AfterMeasurement(SlamSystem& system, const SensorEvent& event,
                         const std::vector<FrameReport>& reports);
-  void AfterReset(const SlamSystem& system);
+  void AfterReset();
 
   /// The newest state in the frame `odom`, and the body's rate (rad/s, frame `imu`).
   void PublishOdometry(const NavState& state, const Eigen::Vector3d& rate);
@@ -45,9 +45,11 @@ class SlamOutputs {
   PipelineDiagnostics diagnostics() const;
 
  private:
-  void AfterPose(const SlamSystem& system, const FrameReport& report);
+  void AfterPose(SlamSystem& system, const FrameReport& report);
+  void PublishPoseWithoutImu(const FrameReport& report);
+  void Refresh(SlamSystem& system, const FrameReport& report);
   void Draw(const SlamSystem& system, const SensorEvent& event);
-  void Note(const SlamSystem& system, const std::vector<FrameReport>& reports);
+  void Note(const SlamSystem& system, const FrameReport& report);
   void PublishSensorFrames();
 
   const NodeSetup& setup_;
@@ -61,11 +63,12 @@ class SlamOutputs {
   ros::Publisher tf_;
   ros::Publisher tf_static_;
   Pace path_pace_;
-  Pace map_pace_;
+  Pace refresh_pace_;
   Pace image_pace_;
   Pace tf_pace_;
-  Pace note_pace_;
   std::optional<CameraFrame> last_frame_;  ///< of the tracked camera, not yet drawn
+  std::vector<StampedPose> key_poses_;     ///< of the base in the map, at the last refresh
+  std::optional<StampedPose> last_pose_;   ///< of the IMU in `odom`
 
   mutable std::mutex mutex_;
   SE3 T_map_odom_;

@@ -20,7 +20,7 @@ ScenarioOptions Plain() {
   options.mesh.reach = 60.0;
   options.terrain.relief.slope_deg = 0.5;
   options.terrain.craters.density = 0.0;
-  options.terrain.rocks.law = "none";
+  options.terrain.rocks.law = RockLaw::kNone;
   options.drive.wanted_slope_deg = 0.0;
   options.camera.width = 64;
   options.camera.height = 48;
@@ -122,7 +122,7 @@ TEST_F(LiveSimulatorTest, StopsAtTheBorderOfItsArenaAndComesBack) {
 
 TEST_F(LiveSimulatorTest, StopsBeforeRocks) {
   ScenarioOptions options = Plain();
-  options.terrain.rocks.law = "power";
+  options.terrain.rocks.law = RockLaw::kPower;
   options.terrain.rocks.density = 0.3;
   Make(options);
   Drive(0.8, 0.0, 60.0);

@@ -181,7 +181,7 @@ void LiveSlam::BeginAnew(std::unique_lock<std::mutex>* lock) {
   lock->unlock();
   system_ = factory_();
   Rebase(std::nullopt);
-  if (reset_listener_) reset_listener_(*system_, reason);
+  if (reset_listener_) reset_listener_(reason);
   lock->lock();
   working_ = false;
 }

@@ -38,12 +38,12 @@ struct LiveStatus {
 class LiveSlam {
  public:
   using Factory = std::function<std::unique_ptr<SlamSystem>()>;
-  using Task = std::function<void(const SlamSystem&)>;
+  using Task = std::function<void(SlamSystem&)>;
   /// Told, in the worker's thread, of each measurement and of the frames that it completed.
   using Listener =
-      std::function<void(const SlamSystem&, const SensorEvent&, const std::vector<FrameReport>&)>;
+      std::function<void(SlamSystem&, const SensorEvent&, const std::vector<FrameReport>&)>;
   /// Told, in the worker's thread, that everything begins anew.
-  using ResetListener = std::function<void(const SlamSystem&, const std::string& reason)>;
+  using ResetListener = std::function<void(const std::string& reason)>;
 
   /// `gravity` (m/s²) is that of the rig. The first system is made at once; its thread pool is to
   /// be used by nobody else.

@@ -70,7 +70,7 @@ TEST_F(LiveSlamTest, GivesThePosesOfAnOfflineRun) {
     live->Push(0, Room(i));
   }
   Await(*live);
-  live->Ask([&](const SlamSystem& system) {
+  live->Ask([&](SlamSystem& system) {
     ASSERT_EQ(system.odometry().size(), 10U);
     for (size_t i = 0; i < 10; ++i) {
       EXPECT_EQ(system.odometry().poses()[i].T_world_body.translation,
@@ -87,11 +87,11 @@ TEST_F(LiveSlamTest, DropsTheOldestWhereItCannotFollowAndSaysSo) {
   std::promise<void> go_on;
   const std::shared_future<void> wait = go_on.get_future().share();
   std::vector<TimeNs> seen;
-  const auto live = Make(options, [&, wait](const SlamSystem&, const SensorEvent& event,
-                                            const std::vector<FrameReport>&) {
-    wait.wait();
-    seen.push_back(EventTime(event));
-  });
+  const auto live = Make(
+      options, [&, wait](SlamSystem&, const SensorEvent& event, const std::vector<FrameReport>&) {
+        wait.wait();
+        seen.push_back(EventTime(event));
+      });
   for (int i = 0; i < 30; ++i) live->Push(0, Room(i));
   EXPECT_LE(live->status().waiting, 6U);
   EXPECT_GE(live->status().dropped_scans, 23U);
@@ -107,13 +107,10 @@ TEST_F(LiveSlamTest, BeginsAnewOnRequestAndAfterAFailure) {
   std::vector<std::string> reasons;
   const auto live = Make(
       {},
-      [&](const SlamSystem&, const SensorEvent&, const std::vector<FrameReport>&) {
+      [&](SlamSystem&, const SensorEvent&, const std::vector<FrameReport>&) {
         if (fails) throw InputError("no good");
       },
-      [&](const SlamSystem& system, const std::string& reason) {
-        EXPECT_EQ(system.odometry().size(), 0U);
-        reasons.push_back(reason);
-      });
+      [&](const std::string& reason) { reasons.push_back(reason); });
   live->Push(0, Room(0));
   Await(*live);
   live->Reset("asked for");
@@ -132,13 +129,13 @@ TEST_F(LiveSlamTest, ABagThatBeginsAgainBeginsAnew) {
   for (int i = 0; i < 40; ++i) live->Push(0, Room(i));
   for (int i = 0; i < 10; ++i) live->Push(0, Room(i));
   Await(*live);
-  live->Ask([](const SlamSystem& system) { EXPECT_EQ(system.odometry().size(), 10U); });
+  live->Ask([](SlamSystem& system) { EXPECT_EQ(system.odometry().size(), 10U); });
   EXPECT_EQ(live->status().time_jumps, 1U);
 }
 
 TEST_F(LiveSlamTest, WhatATaskThrowsComesBack) {
   const auto live = Make({}, {});
-  EXPECT_THROW(live->Ask([](const SlamSystem&) { throw OutputError("/no", "such folder"); }),
+  EXPECT_THROW(live->Ask([](SlamSystem&) { throw OutputError("/no", "such folder"); }),
                OutputError);
 }
 
