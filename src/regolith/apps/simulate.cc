@@ -9,9 +9,9 @@
 
 #include "regolith/apps/background_writer.h"
 #include "regolith/apps/image_pairs.h"
-#include "regolith/config/install_paths.h"
 #include "regolith/apps/output_folder.h"
 #include "regolith/apps/progress.h"
+#include "regolith/config/install_paths.h"
 #include "regolith/config/rig_config.h"
 #include "regolith/config/scenario_config.h"
 #include "regolith/core/check.h"

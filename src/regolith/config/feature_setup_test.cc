@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "regolith/core/error.h"
 #include "regolith/config/test_folder_internal.h"
+#include "regolith/core/error.h"
 
 namespace regolith {
 namespace {

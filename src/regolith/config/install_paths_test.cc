@@ -7,8 +7,8 @@
 
 #include <cstdlib>
 
-#include "regolith/core/error.h"
 #include "regolith/config/test_folder_internal.h"
+#include "regolith/core/error.h"
 
 namespace regolith {
 namespace {

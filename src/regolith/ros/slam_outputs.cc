@@ -78,7 +78,10 @@ void SlamOutputs::PublishOdometry(const NavState& state, const Eigen::Vector3d& 
 void SlamOutputs::AfterMeasurement(SlamSystem& system, const SensorEvent& event,
                                    const std::vector<FrameReport>& reports) {
   Draw(system, event);
-  for (const FrameReport& report : reports) {
+  waiting_.insert(waiting_.end(), reports.begin(), reports.end());
+  while (!waiting_.empty()) {
+    const FrameReport report = std::move(waiting_.front());
+    waiting_.pop_front();
     Note(system, report);
     const bool is_scan = report.source == FrameSource::kScan;
     if (is_scan || (system.scans_seen() == 0 && report.visual)) AfterPose(system, report);

@@ -4,6 +4,7 @@
 
 // Not one of the exported headers: it names ROS types, and is for .cc files only.
 #include <chrono>
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -66,6 +67,7 @@ class SlamOutputs {
   Pace refresh_pace_;
   Pace image_pace_;
   Pace tf_pace_;
+  std::deque<FrameReport> waiting_;        ///< to be told of
   std::optional<CameraFrame> last_frame_;  ///< of the tracked camera, not yet drawn
   std::vector<StampedPose> key_poses_;     ///< of the base in the map, at the last refresh
   std::optional<StampedPose> last_pose_;   ///< of the IMU in `odom`

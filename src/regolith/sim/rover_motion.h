@@ -38,7 +38,8 @@ class RoverMotion {
   RoverMotion(const Surface& surface, Span<const PlanarPose> path, const RoverOptions& rover,
               const VibrationOptions& vibration, uint64_t seed);
 
-  /// Adds a pose kMotionInterval after the last one. Throws InputError where the rover cannot stand.
+  /// Adds a pose kMotionInterval after the last one. Throws InputError where the rover cannot
+  /// stand.
   void Append(const PlanarPose& pose, const RoverOptions& rover, Suspension* suspension);
   /// Time (s) up to which further poses change nothing.
   double settled() const { return spline_.settled(); }

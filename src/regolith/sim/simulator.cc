@@ -30,15 +30,15 @@ namespace regolith {
 namespace {
 
 constexpr TimeNs kEpoch = 1'700'000'000'000'000'000;  // an arbitrary date, as a real recorder's
-constexpr double kTruthRate = 100.0;     // Hz
-constexpr double kTerrainMargin = 30.0;  // m
+constexpr double kTruthRate = 100.0;                  // Hz
+constexpr double kTerrainMargin = 30.0;               // m
 constexpr double kTerrainSpacing = 0.05;
-constexpr double kSettlePeriod = 1.0;      // s between two exchanges of ground tiles
-constexpr int kOtherSuns = 4;              // in a set of pairs
-constexpr double kPairYaw = 0.2;           // rad, standard deviations between the images of a pair
-constexpr double kPairTilt = 0.06;         // rad
-constexpr double kPairShift = 0.25;        // m
-constexpr double kPathEnd = 1.0;           // s of path beyond the last measurement
+constexpr double kSettlePeriod = 1.0;  // s between two exchanges of ground tiles
+constexpr int kOtherSuns = 4;          // in a set of pairs
+constexpr double kPairYaw = 0.2;       // rad, standard deviations between the images of a pair
+constexpr double kPairTilt = 0.06;     // rad
+constexpr double kPairShift = 0.25;    // m
+constexpr double kPathEnd = 1.0;       // s of path beyond the last measurement
 const char* const kCameras[] = {"mono", "left", "right"};
 
 std::unique_ptr<Surface> MakeSurface(const ScenarioOptions& options, const HeightGrid* dem) {
