@@ -10,6 +10,7 @@
 #include <ctime>
 #include <exception>
 #include <thread>
+#include <utility>
 
 #include "regolith/apps/output_folder.h"
 #include "regolith/apps/progress.h"
@@ -45,12 +46,17 @@ class Pacer {
  public:
   explicit Pacer(double rate) : rate_(rate) {}
 
+  bool has_pace() const { return rate_ > 0.0; }
+
   void Wait(TimeNs time) {
-    if (rate_ <= 0.0) return;
+    if (!has_pace()) return;
     if (first_ == 0) first_ = time;
-    std::this_thread::sleep_until(
-        start_ + std::chrono::duration_cast<Clock::duration>(
-                     std::chrono::duration<double>(SecondsBetween(first_, time) / rate_)));
+    std::this_thread::sleep_until(Due(time));
+  }
+
+  Clock::time_point Due(TimeNs time) const {
+    return start_ + std::chrono::duration_cast<Clock::duration>(
+                        std::chrono::duration<double>(SecondsBetween(first_, time) / rate_));
   }
 
  private:
@@ -61,6 +67,17 @@ class Pacer {
 
 void Keep(std::vector<FrameReport> reports, RunRecord* record) {
   for (FrameReport& report : reports) record->frames.push_back(std::move(report));
+}
+
+/// Of all frames with a pose: from when the last of what it is made of was due.
+std::vector<double> Latencies(const std::vector<FrameReport>& frames, const Pacer& pacer) {
+  std::vector<double> latencies;
+  for (const FrameReport& frame : frames) {
+    if (frame.source == FrameSource::kImage ? !frame.visual : !frame.has_scan) continue;
+    const std::chrono::duration<double, std::milli> late = frame.completed - pacer.Due(frame.end);
+    latencies.push_back(late.count());
+  }
+  return latencies;
 }
 
 /// Feeds the recording to the system until its end or a request to stop. A failure in the middle is
@@ -83,15 +100,17 @@ RunRecord Estimate(SensorSource& source, double rate, bool quiet, SlamSystem& sy
       last = EventTime(*event);
       if (first == 0) first = last;
       pacer.Wait(last);
-      Keep(system.Process(*event), &record);
       monitor.Observe(*event);
+      Keep(system.Process(std::move(*event)), &record);
       progress.Update(SecondsBetween(first, last));
     }
-    Keep(system.Finish(), &record);
+    Keep(record.complete ? system.Finish() : system.Settle(), &record);
   } catch (...) {
     record.complete = false;
     *failure = std::current_exception();
+    Keep(system.Settle(), &record);
   }
+  if (pacer.has_pace()) record.latencies = Latencies(record.frames, pacer);
   record.samples = monitor.TakeSamples();
   record.recording_seconds = SecondsBetween(first, last);
   record.wall_seconds = SecondsSince(start);
@@ -150,6 +169,7 @@ int Run(const RunArguments& arguments) {
   // The trajectory stands without them, unless it is made of them.
   read.skip_absent_cameras = setup.pipeline.odometry != OdometryKind::kVio;
   read.skip_absent_wheels = setup.pipeline.lio.lidar;
+  read.skip_absent_lidar = system.needs().can_lack_lidar;
   read.cuts = setup.cuts;
   const auto source = OpenRecording(setup.identity, setup.rig, read);
   PrepareOutputFolder(arguments.out, arguments.overwrite);

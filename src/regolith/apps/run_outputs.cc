@@ -93,6 +93,14 @@ std::string VisualCells(const std::optional<VioEstimate>& visual) {
   return buffer;
 }
 
+std::string SupervisorCells(const FrameReport& frame) {
+  std::string text = std::string(",") + (frame.led_by ? SubsystemName(*frame.led_by) : "nobody");
+  for (const SubsystemState state : frame.states) {
+    text += std::string(",") + SubsystemStateName(state);
+  }
+  return text;
+}
+
 std::string StatusTable(const std::vector<FrameReport>& frames) {
   std::string text =
       "time_s,leader,at_rest,tracked_features,points,matches,inliers,residual_scale_m,"
@@ -102,11 +110,11 @@ std::string StatusTable(const std::vector<FrameReport>& frames) {
       "cells_filled,threshold_rounds,threshold_min,threshold_median,threshold_max,weakest_ratio,"
       "weakest_x,weakest_y,weakest_z,health,keyframe,landmarks,measured_distances,visual_outliers,"
       "visual_cost,slip,"
-      "time_offset_s\n";
+      "time_offset_s,led_by,lidar,camera,wheels,imu\n";
   for (const FrameReport& frame : frames) {
     text += SecondsText(frame.stamp) + "," + frame.leader;
     text += frame.source == FrameSource::kScan ? ScanCells(frame) : ImageCells(frame);
-    text += VisualCells(frame.visual) + "\n";
+    text += VisualCells(frame.visual) + SupervisorCells(frame) + "\n";
   }
   return text;
 }
@@ -144,6 +152,10 @@ nlohmann::ordered_json SummaryOf(const RunSetup& setup, const SlamSystem& system
       record.wall_seconds > 0.0 ? record.recording_seconds / record.wall_seconds : 0.0;
   summary["cpu_seconds"] = record.cpu_seconds;
   summary["peak_rss_mb"] = record.peak_rss_mb;
+  if (!record.latencies.empty()) {
+    summary["latency_ms"] = {{"median", Quantile(record.latencies, 0.5)},
+                             {"p99", Quantile(record.latencies, 0.99)}};
+  }
   summary["frames"] = system.images_seen();
   summary["scans"] = system.scans_seen();
   const KeyframeCounts counts = system.keyframe_counts();

@@ -21,6 +21,8 @@ struct RunRecord {
   double wall_seconds = 0.0;       ///< for them
   double cpu_seconds = 0.0;
   double peak_rss_mb = 0.0;
+  /// At a pace (--rate): ms from when a frame was due to when its pose was known.
+  std::vector<double> latencies;
   std::vector<FrameReport> frames;
   std::vector<std::string> notices;
   RunSamples samples;  ///< for the report

@@ -122,8 +122,22 @@ void AddLeader(const RunRecord& record, ReportData* data) {
   if (!degenerate.empty()) data->degenerate = degenerate.front();
 }
 
-/// Where visual odometry has set keyframes, as their places are known now.
-void AddKeyframes(const RunRecord& record, const Trajectory& trajectory, ReportData* data) {
+/// Where the back end has set keyframes, and the loops between them; else where visual odometry
+/// has.
+void AddKeyframes(const SlamSystem& system, const RunRecord& record, const Trajectory& trajectory,
+                  ReportData* data) {
+  if (const Backend* backend = system.backend()) {
+    for (size_t i = 0; i < backend->keyframes().size(); ++i) {
+      data->keyframes.push_back({backend->keyframes()[i].time, backend->T_world_body(i)});
+    }
+    for (const LoopRecord& loop : backend->loops()) {
+      if (loop.verdict.outcome != LoopOutcome::kAccepted) continue;
+      data->loops.push_back({backend->keyframes()[loop.new_keyframe].time,
+                             backend->T_world_body(loop.old_keyframe).translation,
+                             backend->T_world_body(loop.new_keyframe).translation});
+    }
+    return;
+  }
   for (const FrameReport& frame : record.frames) {
     if (!frame.visual || !frame.visual->is_keyframe) continue;
     const auto T_world_body = trajectory.At(frame.stamp);
@@ -336,7 +350,7 @@ ReportData ReportOf(const RunSetup& setup, const SlamSystem& system, const RunRe
         {(of_image ? "image: " : "") + StageName(stage.name), stage.median_ms, stage.p99_ms});
   }
   AddFeatures(record, &data);
-  AddKeyframes(record, trajectory, &data);
+  AddKeyframes(system, record, trajectory, &data);
   AddLeader(record, &data);
   AddGroups(record, &data);
   data.frames = SampleFrames(setup, record.samples.images, data.start);

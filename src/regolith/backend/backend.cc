@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "regolith/core/check.h"
-#include "regolith/geometry/so3.h"
 
 namespace regolith {
 
@@ -17,16 +16,6 @@ Backend::Backend(const BackendOptions& options, ThreadPool* threads)
       verifier_(options.verifier, threads),
       consistency_(options.consistency) {
   options.Check();
-}
-
-bool Backend::IsKeyframe(TimeNs time, const SE3& T_odom_body) const {
-  if (keyframes_.size() == 0) return true;
-  const size_t last = keyframes_.size() - 1;
-  const SE3 moved = odometry_.T_odom_body(last).Inverse() * T_odom_body;
-  const KeyframeOptions& limits = options_.keyframes;
-  return moved.translation.norm() >= limits.distance ||
-         LogSo3(moved.rotation).norm() >= limits.angle ||
-         SecondsBetween(keyframes_[last].time, time) >= limits.seconds;
 }
 
 std::vector<StageTime> Backend::Add(const KeyframeInput& input) {

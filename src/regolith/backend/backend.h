@@ -40,8 +40,6 @@ class Backend {
  public:
   Backend(const BackendOptions& options, ThreadPool* threads);
 
-  /// Whether a pose of the odometry is far enough from the last keyframe to be one.
-  bool IsKeyframe(TimeNs time, const SE3& T_odom_body) const;
   /// Adds a keyframe, looks for loops at it, and brings the graph into agreement where one was
   /// accepted. Times increase.
   std::vector<StageTime> Add(const KeyframeInput& input);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "regolith/backend/keyframe_selector.h"
 #include "regolith/backend/test_ground_internal.h"
 #include "regolith/core/check.h"
 
@@ -40,7 +41,7 @@ std::vector<Moment> Laps(const TestGround& ground, int laps) {
 class Driver {
  public:
   explicit Driver(const BackendOptions& options = BackendOptions())
-      : threads_(2), backend_(options, &threads_) {}
+      : threads_(2), selector_(options.keyframes), backend_(options, &threads_) {}
 
   void Drive(const std::vector<Moment>& drive, const Odometry& odometry) {
     Vector6d step_variances;
@@ -66,7 +67,7 @@ class Driver {
       input.is_level = true;
       input.points_body = moment.ground->Scan(moment.T_world_body, truth_.size());
       odometry_.Append({input.time, T_odom_body_});
-      EXPECT_TRUE(backend_.IsKeyframe(input.time, input.T_odom_body));
+      EXPECT_TRUE(selector_.Select(input.time, input.T_odom_body));
       backend_.Add(input);
     }
   }
@@ -88,6 +89,7 @@ class Driver {
 
  private:
   ThreadPool threads_;
+  KeyframeSelector selector_;
   Backend backend_;
   std::vector<SE3> truth_;
   Trajectory odometry_;
@@ -320,11 +322,12 @@ TEST(Backend, WithoutLoopsItGivesTheOdometryBack) {
 TEST(Backend, PosesBetweenKeyframesFollowBoth) {
   ThreadPool threads(1);
   Backend backend(BackendOptions(), &threads);
+  KeyframeSelector selector((KeyframeOptions()));
   const auto at = [](double x) { return SE3(Eigen::Quaterniond::Identity(), {x, 0.0, 0.0}); };
   Trajectory odometry;
   for (int i = 0; i <= 20; ++i) {
     odometry.Append({FromSeconds(0.1 * i), at(0.1 * i)});
-    if (!backend.IsKeyframe(FromSeconds(0.1 * i), at(0.1 * i))) continue;
+    if (!selector.Select(FromSeconds(0.1 * i), at(0.1 * i))) continue;
     KeyframeInput input;
     input.time = FromSeconds(0.1 * i);
     input.T_odom_body = at(0.1 * i);

@@ -174,6 +174,7 @@ void Fields(Archive& archive, VioOptions& vio) {
   archive("moving_window", vio.moving_window);
   archive("moving_velocity_sigma", vio.moving_velocity_sigma);
   archive("moving_tilt_sigma", vio.moving_tilt_sigma);
+  archive("min_imu_rate", vio.min_imu_rate);
   archive("max_imu_gap", vio.max_imu_gap);
   archive("min_features", vio.min_features);
   archive("max_gyro_bias", vio.max_gyro_bias);
@@ -194,6 +195,18 @@ void Fields(Archive& archive, LidarDepthOptions& depth) {
   archive("max_incidence", depth.max_incidence);
   archive("depth_step", depth.depth_step);
   archive("sigma", depth.sigma);
+}
+
+/// In the order of Subsystem.
+constexpr std::array<const char*, kSubsystems> kTimeoutNames = {"lidar_timeout", "camera_timeout",
+                                                                "wheels_timeout", "imu_timeout"};
+
+template <typename Archive>
+void Fields(Archive& archive, SupervisorOptions& supervisor) {
+  for (size_t i = 0; i < kSubsystems; ++i) archive(kTimeoutNames[i], supervisor.timeouts[i]);
+  archive("poor_measurements", supervisor.poor_measurements);
+  archive("return_time", supervisor.return_time);
+  archive("max_degenerate_directions", supervisor.max_degenerate_directions);
 }
 
 constexpr std::array<std::pair<const char*, OdometryKind>, 3> kOdometryNames = {
@@ -231,6 +244,9 @@ void Fields(Archive& archive, PipelineOptions& options) {
   archive("vio", options.vio);
   archive("lidar_depth", options.lidar_depth);
   archive("visual_velocity_sigma", options.visual_velocity_sigma);
+  archive("feedback_delay", options.feedback_delay);
+  archive("lidar_silence", options.lidar_silence);
+  archive("supervisor", options.supervisor);
   archive("backend", options.backend);
   archive("map", options.map);
 }
@@ -241,11 +257,14 @@ PipelineOptions LoadPipeline(const YamlDocument& document) {
   Fields(reader, options);
   reader.Finish();
   try {
+    REGOLITH_CHECK(options.feedback_delay > 0.0, "feedback_delay=", options.feedback_delay);
+    REGOLITH_CHECK(options.lidar_silence > 0.0, "lidar_silence=", options.lidar_silence);
     options.features.Check();
     options.lio.Check();
     options.lego_loam.Check();
     options.vio.Check();
     options.lidar_depth.Check();
+    options.supervisor.Check();
     options.backend.Check();
     options.map.Check();
   } catch (const CheckError& error) {

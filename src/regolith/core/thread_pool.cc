@@ -33,6 +33,14 @@ class ThreadPool::Implementation {
 
   void Run(size_t count, size_t chunk_size,
            const std::function<void(size_t, size_t, size_t)>& body) {
+    // While another caller's loop has the helpers, this one is worked off by its caller alone.
+    const std::unique_lock callers(callers_, std::try_to_lock);
+    if (!callers) {
+      for (size_t begin = 0; begin < count; begin += chunk_size) {
+        body(begin, std::min(begin + chunk_size, count), begin / chunk_size);
+      }
+      return;
+    }
     {
       const std::lock_guard lock(mutex_);
       count_ = count;
@@ -79,6 +87,7 @@ class ThreadPool::Implementation {
   }
 
   std::vector<std::thread> helpers_;
+  std::mutex callers_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::condition_variable done_;

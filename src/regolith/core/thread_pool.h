@@ -22,8 +22,8 @@ class ThreadPool {
   int threads() const;
 
   /// Calls body(begin, end, chunk) for [0, count) cut into pieces of `chunk_size`; returns when all
-  /// are done. The first exception that a body throws is thrown here. Not to be called from inside
-  /// a body.
+  /// are done. The first exception that a body throws is thrown here. Several threads may call it
+  /// at once, but not from inside a body.
   void ParallelFor(size_t count, size_t chunk_size,
                    const std::function<void(size_t begin, size_t end, size_t chunk)>& body);
 

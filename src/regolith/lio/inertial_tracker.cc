@@ -89,10 +89,12 @@ void InertialTracker::Step(const ImuSample& from, const ImuSample& to) {
   for (; !velocities_.empty() && velocities_.front().time <= to.time; velocities_.pop_front()) {
     if (velocities_.front().time <= from.time) continue;
     filter_->AbsorbVelocity(velocities_.front().velocity_imu, velocities_.front().sigma);
+    took_velocities_ = true;
   }
 }
 
 std::vector<StampedPose> InertialTracker::PropagateTo(TimeNs end) {
+  took_velocities_ = false;
   std::vector<StampedPose> motion = {{filter_->state().time, filter_->state().T_world_imu}};
   if (end <= filter_->state().time) return motion;
   const std::vector<ImuSample> steps = SamplesBetween(samples_, filter_->state().time, end);

@@ -43,6 +43,9 @@ class InertialTracker {
   /// absorbed where they were measured.
   std::vector<StampedPose> PropagateTo(TimeNs end);
 
+  /// Whether velocities that others told were absorbed on the way of the last PropagateTo.
+  bool TookVelocities() const { return took_velocities_; }
+
   /// Whether the rover stands: the last samples are still, and the filter says so too. Absorbs
   /// that.
   bool AbsorbRest();
@@ -68,6 +71,7 @@ class InertialTracker {
   std::deque<Gap> gaps_;
   std::deque<WheelOdometry> wheels_;
   std::deque<BodyVelocity> velocities_;
+  bool took_velocities_ = false;
   std::optional<InertialFilter> filter_;
   TimeNs last_rest_ = 0;  ///< end of the last window of rest that was absorbed
   size_t gap_count_ = 0;

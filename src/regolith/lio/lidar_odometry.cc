@@ -17,6 +17,8 @@ namespace {
 
 // Scans that wait longer than this for the IMU are estimated without it.
 constexpr double kMostWaiting = 1.0;  // s
+// An IMU that has said too little to start and then nothing for so long is given up.
+constexpr double kMostSilent = 3.0;  // s
 
 SE3 PoseAt(const std::vector<StampedPose>& motion, TimeNs time) {
   if (time <= motion.front().time) return motion.front().T_world_body;
@@ -60,9 +62,9 @@ LidarOdometry::LidarOdometry(const LidarOdometryOptions& options, const RigCalib
   for (int i = 0; i < levels; ++i, level.voxel_size *= options.map_growth) {
     maps_.emplace_back(level);
   }
-  REGOLITH_CHECK(rig.lidar.has_value(), "the rig has no lidar");
-  T_body_lidar_ = rig.lidar->T_imu_lidar;
-  if (options.features) features_.emplace(options.feature_matcher, rig.lidar->rings);
+  REGOLITH_CHECK(rig.lidar.has_value() || !options.lidar, "the rig has no lidar");
+  if (rig.lidar) T_body_lidar_ = rig.lidar->T_imu_lidar;
+  if (options.features && rig.lidar) features_.emplace(options.feature_matcher, rig.lidar->rings);
   if (options.wheels && rig.wheels) T_body_base_ = rig.wheels->T_imu_base;
   if (options.imu && rig.imu) inertial_.emplace(options, rig);
 }
@@ -89,8 +91,8 @@ void LidarOdometry::AddVelocity(const BodyVelocity& velocity) {
 }
 
 std::vector<ScanEstimate> LidarOdometry::AddScan(const LidarScan& scan) {
-  waiting_.push_back(scan);
-  std::vector<LidarPoint>& points = waiting_.back().points;
+  waiting_.push_back({scan, true});
+  std::vector<LidarPoint>& points = waiting_.back().scan.points;
   const auto finite = [](const LidarPoint& point) {
     return point.position.allFinite() && std::isfinite(point.time);
   };
@@ -100,41 +102,75 @@ std::vector<ScanEstimate> LidarOdometry::AddScan(const LidarScan& scan) {
   return EstimateReady(false);
 }
 
+std::vector<ScanEstimate> LidarOdometry::AddStamp(TimeNs time) {
+  Waiting waiting;
+  waiting.scan.stamp = time;
+  waiting.is_scan = false;
+  waiting_.push_back(std::move(waiting));
+  return EstimateReady(false);
+}
+
 std::vector<ScanEstimate> LidarOdometry::Finish() { return EstimateReady(true); }
 
 bool LidarOdometry::IsReady(const LidarScan& scan) const {
   const TimeNs end = IntervalOf(scan).end;
-  const bool is_late = SecondsBetween(end, waiting_.back().stamp) > kMostWaiting;
+  const bool is_late = SecondsBetween(end, waiting_.back().scan.stamp) > kMostWaiting;
   if (is_late) return true;
   if (inertial_) return inertial_->has_samples() && inertial_->last_sample_time() >= end;
   return !wheels_came_ || (!wheels_.empty() && wheels_.back().time >= end);
 }
 
-std::vector<ScanEstimate> LidarOdometry::EstimateReady(bool all) {
-  using State = InertialTracker::State;
-  if (inertial_) {
-    inertial_->TryToStart(all);
-    if (inertial_->state() == State::kUnusable) unusable_imu_ = std::exchange(inertial_, {});
+/// An IMU that is too slow, or does not come at all.
+void LidarOdometry::GiveUpImu(bool all) {
+  inertial_->TryToStart(all);
+  const bool is_waiting = inertial_->state() == InertialTracker::State::kWaiting;
+  const TimeNs since = inertial_->has_samples() ? inertial_->last_sample_time()
+                       : waiting_.empty()       ? 0
+                                                : waiting_.front().scan.stamp;
+  const bool is_silent = is_waiting && !waiting_.empty() &&
+                         SecondsBetween(since, waiting_.back().scan.stamp) > kMostSilent;
+  if (inertial_->state() != InertialTracker::State::kUnusable && !(is_silent && options_.lidar)) {
+    return;
   }
+  unusable_imu_ = std::exchange(inertial_, {});
+  imu_is_silent_ = is_silent;
+}
+
+/// Whether the next one is to be estimated at all; counts those that are not.
+bool LidarOdometry::CanEstimate(const Waiting& waiting) {
+  const LidarScan& scan = waiting.scan;
+  if (inertial_ && (inertial_->state() == InertialTracker::State::kWaiting ||
+                    (scans_ == 0 && IntervalOf(scan).end < inertial_->filter().state().time))) {
+    early_scans_ += waiting.is_scan ? 1 : 0;
+    return false;
+  }
+  if (last_stamp_ && scan.stamp <= *last_stamp_) {
+    repeated_scans_ += waiting.is_scan ? 1 : 0;
+    return false;
+  }
+  if (!waiting.is_scan) {
+    // With neither IMU nor wheels a pose without a scan would be invented.
+    return inertial_ ||
+           (last_ && T_body_base_ && scan.stamp > last_->time &&
+            PreintegrateWheels(wheels_, last_->time, scan.stamp, options_.wheel_motion));
+  }
+  empty_scans_ += scan.points.empty() ? 1 : 0;
+  return true;
+}
+
+std::vector<ScanEstimate> LidarOdometry::EstimateReady(bool all) {
+  if (inertial_) GiveUpImu(all);
   std::vector<ScanEstimate> estimates;
-  while (!waiting_.empty() && (all || IsReady(waiting_.front()))) {
-    const bool is_waiting = inertial_ && inertial_->state() == State::kWaiting;
+  while (!waiting_.empty() && (all || IsReady(waiting_.front().scan))) {
     // The world begins at the first IMU pose: until the filter has started a scan can only wait.
-    if (is_waiting && inertial_->has_samples() && !all) break;
-    const LidarScan scan = std::move(waiting_.front());
+    if (inertial_ && inertial_->state() == InertialTracker::State::kWaiting && !all) break;
+    const Waiting next = std::move(waiting_.front());
     waiting_.pop_front();
-    if (is_waiting ||
-        (inertial_ && scans_ == 0 && IntervalOf(scan).end < inertial_->filter().state().time)) {
-      ++early_scans_;
-      continue;
-    }
-    if (last_stamp_ && scan.stamp <= *last_stamp_) {
-      ++repeated_scans_;
-      continue;
-    }
-    last_stamp_ = scan.stamp;
-    if (scan.points.empty()) ++empty_scans_;
-    estimates.push_back(inertial_ ? EstimateInertial(scan) : EstimateWithoutImu(scan));
+    if (!CanEstimate(next)) continue;
+    last_stamp_ = next.scan.stamp;
+    estimates.push_back(inertial_ ? EstimateInertial(next.scan) : EstimateWithoutImu(next.scan));
+    estimates.back().has_scan = next.is_scan;
+    if (!next.is_scan && !inertial_) estimates.back().leader = "wheels";
     ++scans_;
   }
   return estimates;
@@ -212,7 +248,10 @@ ScanEstimate LidarOdometry::EstimateInertial(const LidarScan& scan) {
   estimate.T_world_body = corrected * (predicted.Inverse() * PoseAt(motion, scan.stamp));
   estimate.covariance = filter.PoseCovariance();
   estimate.inertial = InertialState{filter.state(), filter.gravity_world()};
-  estimate.leader = estimate.match.used_scan ? "lidar+imu" : wheels_came_ ? "wheels+imu" : "imu";
+  estimate.leader = estimate.match.used_scan      ? "lidar+imu"
+                    : inertial_->TookVelocities() ? "camera+imu"
+                    : wheels_came_                ? "wheels+imu"
+                                                  : "imu";
   AddDrift(corrected, &estimate);
   if (options_.lidar) {
     estimate.points = ExtendMap(scan, points_body, corrected);
@@ -287,6 +326,10 @@ std::vector<std::string> LidarOdometry::Notices() const {
   std::vector<std::string> notices;
   if (inertial_) notices = inertial_->Notices();
   if (unusable_imu_) notices = unusable_imu_->Notices();
+  if (imu_is_silent_)
+    notices.push_back(
+        "the IMU fell silent before it had started: scans go without it, and the world is not "
+        "level");
   const auto add = [&](size_t count, const char* what) {
     if (count > 0) notices.push_back(Concatenate(count, what));
   };

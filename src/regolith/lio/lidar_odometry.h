@@ -22,9 +22,9 @@ namespace regolith {
 /// Lidar–inertial odometry: the IMU removes the scan's motion distortion and, with the wheels,
 /// predicts its pose; planes of the map around correct it; the filter learns velocity, biases,
 /// gravity and the wheels' slip from the correction. Without an IMU the wheels are the guess, or
-/// the last motion. Without the lidar, IMU and wheels go alone. The body is the IMU where there is
-/// one; the world is level there, with its origin at the first IMU pose; else it is the first body
-/// pose.
+/// the last motion. Without the lidar (or in a time without scans, where poses are asked for by
+/// AddStamp) IMU, wheels and told velocities go alone. The body is the IMU where there is one; the
+/// world is level there, with its origin at the first IMU pose; else it is the first body pose.
 class LidarOdometry : public ScanOdometry {
  public:
   LidarOdometry(const LidarOdometryOptions& options, const RigCalibration& rig,
@@ -36,6 +36,7 @@ class LidarOdometry : public ScanOdometry {
   std::vector<ScanEstimate> AddWheels(const WheelOdometry& odometry) override;
   void AddVelocity(const BodyVelocity& velocity) override;
   std::vector<ScanEstimate> AddScan(const LidarScan& scan) override;
+  std::vector<ScanEstimate> AddStamp(TimeNs time) override;
   std::vector<ScanEstimate> Finish() override;
   std::vector<std::string> Notices() const override;
 
@@ -46,7 +47,15 @@ class LidarOdometry : public ScanOdometry {
     Matrix6d covariance = Matrix6d::Identity();
   };
 
+  /// A scan, or a time at which a pose is wanted without one.
+  struct Waiting {
+    LidarScan scan;
+    bool is_scan = true;
+  };
+
   std::vector<ScanEstimate> EstimateReady(bool all);
+  void GiveUpImu(bool all);
+  bool CanEstimate(const Waiting& waiting);
   bool IsReady(const LidarScan& scan) const;
   ScanEstimate EstimateInertial(const LidarScan& scan);
   ScanEstimate EstimateWithoutImu(const LidarScan& scan);
@@ -67,7 +76,7 @@ class LidarOdometry : public ScanOdometry {
   std::optional<FeatureScanMatcher> features_;  ///< in the place of `maps_`
   MapDrift drift_;
   std::optional<SE3> last_pose_;  ///< that `drift_` has reached
-  std::deque<LidarScan> waiting_;
+  std::deque<Waiting> waiting_;
   std::optional<InertialTracker> inertial_;      ///< nothing without an IMU
   std::optional<InertialTracker> unusable_imu_;  ///< too slow an IMU, for its notice
 
@@ -77,6 +86,7 @@ class LidarOdometry : public ScanOdometry {
   std::vector<WheelOdometry> wheels_;          ///< from `last_` on
 
   bool wheels_came_ = false;
+  bool imu_is_silent_ = false;
   std::optional<TimeNs> last_stamp_;
   size_t scans_ = 0;
   size_t invalid_points_ = 0;

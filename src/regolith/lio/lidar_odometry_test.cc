@@ -181,6 +181,52 @@ TEST(LidarOdometry, ScansBeforeTheFirstImuSampleHaveNoPose) {
   ASSERT_FALSE(odometry.Notices().empty());
 }
 
+TEST(LidarOdometry, AnImuThatNeverComesIsGivenUp) {
+  ThreadPool threads(2);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  std::vector<ScanEstimate> estimates;
+  for (int i = 0; i < 50; ++i) Append(odometry.AddScan(ScanAt(i, true)), &estimates);
+  ASSERT_EQ(estimates.size(), 50U);
+  EXPECT_EQ(estimates.back().leader, "lidar");
+  ASSERT_EQ(odometry.Notices().size(), 1U);
+  EXPECT_NE(odometry.Notices()[0].find("silent"), std::string::npos) << odometry.Notices()[0];
+}
+
+TEST(LidarOdometry, PosesAreGivenInATimeWithoutScans) {
+  ThreadPool threads(1);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  std::vector<ScanEstimate> estimates;
+  for (int i = 0; i < 1000; ++i) {
+    const double time = i * 0.005;
+    Append(odometry.AddImu(ImuAt(time)), &estimates);
+    if (i % 20 != 0) continue;
+    if (i < 400 || i >= 600) {
+      Append(odometry.AddScan(ScanAt(i / 20, true)), &estimates);
+    } else {
+      Append(odometry.AddStamp(FromSeconds(time)), &estimates);
+    }
+  }
+  Append(odometry.Finish(), &estimates);
+  ASSERT_EQ(estimates.size(), 50U);
+  size_t asked = 0;
+  for (const ScanEstimate& estimate : estimates) {
+    asked += estimate.has_scan ? 0 : 1;
+    const bool is_first = estimate.stamp == 0;  // there is no map yet
+    EXPECT_EQ(estimate.leader, estimate.has_scan && !is_first ? "lidar+imu" : "imu");
+  }
+  EXPECT_EQ(asked, 10U);
+  EXPECT_LT(WorstError(estimates), 0.15);
+  EXPECT_TRUE(odometry.Notices().empty());
+}
+
+TEST(LidarOdometry, WithoutImuAndWheelsNoPoseIsInvented) {
+  ThreadPool threads(1);
+  LidarOdometry odometry({}, Rig(false), &threads);
+  ASSERT_EQ(odometry.AddScan(ScanAt(0, true)).size(), 1U);
+  EXPECT_TRUE(odometry.AddStamp(FromSeconds(0.1)).empty());
+  EXPECT_EQ(odometry.AddScan(ScanAt(2, true)).size(), 1U);
+}
+
 TEST(LidarOdometry, EmptyScansAreBridgedByTheImu) {
   ThreadPool threads(1);
   LidarOdometry odometry({}, Rig(true), &threads);

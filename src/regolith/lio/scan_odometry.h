@@ -35,7 +35,9 @@ struct ScanEstimate {
   TimeNs stamp = 0;
   SE3 T_world_body;                        ///< at the scan's stamp
   Matrix6d covariance = Matrix6d::Zero();  ///< of the pose at the scan's end
-  std::string leader;                      ///< "lidar+imu", "imu", "lidar", "guess"
+  /// "lidar+imu", "camera+imu", "wheels+imu", "imu", "lidar", "wheels", "guess".
+  std::string leader;
+  bool has_scan = true;  ///< false: asked for by AddStamp
   bool at_rest = false;
   std::optional<InertialState> inertial;  ///< at the scan's end; nothing without an IMU
   ScanMatch match;
@@ -61,6 +63,12 @@ class ScanOdometry {
   /// Helps where the lidar does not tell; an odometry may leave it aside.
   virtual void AddVelocity(const BodyVelocity& velocity) { (void)velocity; }
   virtual std::vector<ScanEstimate> AddScan(const LidarScan& scan) = 0;
+  /// Asks for a pose at a time without a scan, in the order of the scans' stamps. Nothing comes of
+  /// it where no other sensor tells the motion.
+  virtual std::vector<ScanEstimate> AddStamp(TimeNs time) {
+    (void)time;
+    return {};
+  }
 
   /// Estimates what still waits for measurements that never came.
   virtual std::vector<ScanEstimate> Finish() = 0;

@@ -88,7 +88,7 @@ NodeSetup ResolveNodeSetup(const std::string& name, const std::string& parameter
   ChooseCamera(&setup);
   PrepareTracking(&setup);
   if (setup.rig.wheels) setup.T_imu_base = setup.rig.wheels->T_imu_base;
-  const SensorNeeds needs = NeedsOf(setup.pipeline, setup.rig);
+  const SensorNeeds needs = SensorsNeeded(setup.pipeline, setup.rig);
   for (const SensorTopic& sensor : SensorsOf(setup.rig)) {
     if (Reads(needs, sensor.sensor)) setup.topics.push_back(sensor);
   }

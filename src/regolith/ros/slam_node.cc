@@ -43,7 +43,7 @@ class SlamNode {
         outputs_(setup_, private_node_),
         live_([this] { return MakeSlamSystem(setup_, &threads_); }, setup_.topics.size(),
               setup_.rig.gravity, setup_.options.live,
-              [this](SlamSystem& system, const SensorEvent& event,
+              [this](SlamSystem& system, const SensorEvent* event,
                      const std::vector<FrameReport>& reports) {
                 outputs_.AfterMeasurement(system, event, reports);
               },

@@ -8,15 +8,6 @@
 #include "regolith/system/map_builder.h"
 
 namespace regolith {
-namespace {
-
-SE3 MapFromOdom(const SlamSystem& system) {
-  if (const Backend* const backend = system.backend()) return backend->T_world_odom();
-  return SE3();
-}
-
-}  // namespace
-
 bool Pace::IsDue() {
   const Clock::time_point now = Clock::now();
   if (last_ && now - *last_ < period_) return false;
@@ -75,22 +66,28 @@ void SlamOutputs::PublishOdometry(const NavState& state, const Eigen::Vector3d& 
   tf_.publish(message);
 }
 
-void SlamOutputs::AfterMeasurement(SlamSystem& system, const SensorEvent& event,
+void SlamOutputs::AfterMeasurement(SlamSystem& system, const SensorEvent* event,
                                    const std::vector<FrameReport>& reports) {
   Draw(system, event);
   waiting_.insert(waiting_.end(), reports.begin(), reports.end());
   while (!waiting_.empty()) {
     const FrameReport report = std::move(waiting_.front());
     waiting_.pop_front();
-    Note(system, report);
-    const bool is_scan = report.source == FrameSource::kScan;
-    if (is_scan || (system.scans_seen() == 0 && report.visual)) AfterPose(system, report);
+    Note(report);
+    if (HasPose(report)) AfterPose(system, report);
   }
+}
+
+/// Images have the pipeline's pose where visual odometry leads.
+bool SlamOutputs::HasPose(const FrameReport& report) const {
+  if (report.source == FrameSource::kScan) return true;
+  const bool leads = setup_.pipeline.odometry == OdometryKind::kVio || !setup_.rig.lidar;
+  return leads && report.visual.has_value();
 }
 
 void SlamOutputs::AfterPose(SlamSystem& system, const FrameReport& report) {
   const SlamNodeOptions& options = setup_.options;
-  const SE3 T_map_odom = MapFromOdom(system);
+  const SE3 T_map_odom = system.T_map_odom();
   const SE3 T_map_base = T_map_odom * report.T_world_body * T_imu_base_;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -125,6 +122,7 @@ void SlamOutputs::PublishPoseWithoutImu(const FrameReport& report) {
 /// What loops change, and what takes time to ask for.
 void SlamOutputs::Refresh(SlamSystem& system, const FrameReport& report) {
   const SlamNodeOptions& options = setup_.options;
+  for (FrameReport& more : system.Settle()) waiting_.push_back(std::move(more));
   key_poses_ = KeyPoses(system, T_imu_base_);
   const auto loops = LoopsMessage(system, report.stamp, options.map_frame);
   if (!loops.markers.empty()) loops_.publish(loops);
@@ -142,27 +140,31 @@ void SlamOutputs::Refresh(SlamSystem& system, const FrameReport& report) {
   diagnostics_.notices = notices;
 }
 
-/// An image is shown as soon as its features are tracked; of a stereo pair that is when the other
-/// image has come.
-void SlamOutputs::Draw(const SlamSystem& system, const SensorEvent& event) {
-  if (image_.getNumSubscribers() == 0) return;
-  const auto* const frame = std::get_if<CameraFrame>(&event);
-  if (frame == nullptr) return;
-  if (frame->camera == setup_.pipeline.tracked_camera && image_pace_.IsDue()) last_frame_ = *frame;
-  if (!last_frame_ || system.tracks().stamp != last_frame_->time) return;
-  image_.publish(FeaturesMessage(*last_frame_, system.tracks().features));
+/// An image is shown as soon as its features are tracked, which is some measurements later.
+void SlamOutputs::Draw(const SlamSystem& system, const SensorEvent* event) {
+  if (image_.getNumSubscribers() == 0 || event == nullptr) return;
+  const auto* const frame = std::get_if<CameraFrame>(event);
+  if (frame != nullptr && frame->camera == setup_.pipeline.tracked_camera && !last_frame_ &&
+      image_pace_.IsDue()) {
+    last_frame_ = *frame;
+  }
+  if (!last_frame_) return;
+  const ImageTracks tracks = system.tracks();
+  if (tracks.stamp < last_frame_->time) return;
+  // A later one has been tracked already where measurements come in bursts.
+  if (tracks.stamp == last_frame_->time) {
+    image_.publish(FeaturesMessage(*last_frame_, tracks.features));
+  }
   last_frame_.reset();
 }
 
-void SlamOutputs::Note(const SlamSystem& system, const FrameReport& report) {
-  const bool is_pose = report.source == FrameSource::kScan || system.scans_seen() == 0;
+void SlamOutputs::Note(const FrameReport& report) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (report.visual) diagnostics_.health = VioHealthName(report.visual->health);
-  if (!is_pose) return;
+  if (!HasPose(report)) return;
   diagnostics_.leader = report.leader;
   diagnostics_.at_rest = report.at_rest;
   diagnostics_.degenerate_directions = report.degenerate_directions;
-  if (report.source != FrameSource::kScan && !report.visual) return;
   if (last_pose_) {
     diagnostics_.distance +=
         (report.T_world_body.translation - last_pose_->T_world_body.translation).norm();

@@ -34,8 +34,8 @@ class SlamOutputs {
  public:
   SlamOutputs(const NodeSetup& setup, ros::NodeHandle private_node);
 
-  /// In the estimator's thread, after each measurement.
-  void AfterMeasurement(SlamSystem& system, const SensorEvent& event,
+  /// In the estimator's thread, after each measurement (null: after none).
+  void AfterMeasurement(SlamSystem& system, const SensorEvent* event,
                         const std::vector<FrameReport>& reports);
   void AfterReset();
 
@@ -49,8 +49,9 @@ class SlamOutputs {
   void AfterPose(SlamSystem& system, const FrameReport& report);
   void PublishPoseWithoutImu(const FrameReport& report);
   void Refresh(SlamSystem& system, const FrameReport& report);
-  void Draw(const SlamSystem& system, const SensorEvent& event);
-  void Note(const SlamSystem& system, const FrameReport& report);
+  void Draw(const SlamSystem& system, const SensorEvent* event);
+  void Note(const FrameReport& report);
+  bool HasPose(const FrameReport& report) const;
   void PublishSensorFrames();
 
   const NodeSetup& setup_;

@@ -15,20 +15,6 @@ namespace {
 /// s; a prediction over a longer time would be a guess.
 constexpr double kLongestPrediction = 2.0;
 
-/// The newest state that the estimator knows, in its smooth frame `odom`.
-std::optional<NavState> LiveState(const SlamSystem& system) {
-  const Span<const StampedPose> poses = system.odometry().poses();
-  if (poses.size() < 2) return std::nullopt;
-  const StampedPose& last = poses[poses.size() - 1];
-  const StampedPose& before = poses[poses.size() - 2];
-  NavState state;
-  state.time = last.time;
-  state.T_world_imu = last.T_world_body;
-  state.v_world_imu = (last.T_world_body.translation - before.T_world_body.translation) /
-                      SecondsBetween(before.time, last.time);
-  return state;
-}
-
 bool IsScan(const SensorEvent& event) { return std::holds_alternative<LidarScan>(event); }
 bool IsImage(const SensorEvent& event) { return std::holds_alternative<CameraFrame>(event); }
 
@@ -150,7 +136,10 @@ void LiveSlam::Run() {
     const bool woken = wake_.wait_for(
         lock, idle, [this] { return stop_ || reset_ || !requests_.empty() || !queue_.empty(); });
     if (stop_) break;
-    if (!woken) Enqueue(merger_.TakeAll());
+    if (!woken) {
+      Enqueue(merger_.TakeAll());
+      if (queue_.empty() && !settled_) Settle(&lock);
+    }
     if (reset_) BeginAnew(&lock);
     if (!AnswerRequests(&lock) && !queue_.empty()) WorkOff(&lock);
   }
@@ -162,6 +151,7 @@ bool LiveSlam::AnswerRequests(std::unique_lock<std::mutex>* lock) {
   if (requests_.empty()) return false;
   Request* const request = requests_.front();
   requests_.pop_front();
+  Settle(lock);
   lock->unlock();
   try {
     (*request->task)(*system_);
@@ -186,6 +176,17 @@ void LiveSlam::BeginAnew(std::unique_lock<std::mutex>* lock) {
   working_ = false;
 }
 
+/// Until all that was given to the system is worked off.
+void LiveSlam::Settle(std::unique_lock<std::mutex>* lock) {
+  working_ = settled_ = true;
+  lock->unlock();
+  const std::vector<FrameReport> reports = system_->Settle();
+  Rebase(system_->live());
+  if (listener_ && !reports.empty()) listener_(*system_, nullptr, reports);
+  lock->lock();
+  working_ = false;
+}
+
 void LiveSlam::WorkOff(std::unique_lock<std::mutex>* lock) {
   const SensorEvent event = std::move(queue_.front());
   queue_.pop_front();
@@ -193,13 +194,14 @@ void LiveSlam::WorkOff(std::unique_lock<std::mutex>* lock) {
   images_ -= IsImage(event) ? 1 : 0;
   const bool was_last = queue_.empty();
   working_ = true;
+  settled_ = false;
   lock->unlock();
   std::string failure;
   try {
     const std::vector<FrameReport> reports = system_->Process(event);
     // Often enough: while measurements still wait, better states come at once.
-    if (was_last || !reports.empty()) Rebase(LiveState(*system_));
-    if (listener_) listener_(*system_, event, reports);
+    if (was_last || !reports.empty()) Rebase(system_->live());
+    if (listener_) listener_(*system_, &event, reports);
   } catch (const std::exception& error) {
     failure = error.what();
   }

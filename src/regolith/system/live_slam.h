@@ -39,9 +39,10 @@ class LiveSlam {
  public:
   using Factory = std::function<std::unique_ptr<SlamSystem>()>;
   using Task = std::function<void(SlamSystem&)>;
-  /// Told, in the worker's thread, of each measurement and of the frames that it completed.
+  /// Told, in the worker's thread, of each measurement and of the frames that are completed since;
+  /// of frames alone where none comes.
   using Listener =
-      std::function<void(SlamSystem&, const SensorEvent&, const std::vector<FrameReport>&)>;
+      std::function<void(SlamSystem&, const SensorEvent*, const std::vector<FrameReport>&)>;
   /// Told, in the worker's thread, that everything begins anew.
   using ResetListener = std::function<void(const std::string& reason)>;
 
@@ -61,8 +62,8 @@ class LiveSlam {
   /// has not seen yet. Frame `odom`. Nothing before the first estimate.
   std::optional<NavState> Predicted() const;
 
-  /// Runs a task between two measurements, in the worker's thread, and waits for it; what it throws
-  /// is thrown here.
+  /// Runs a task between two measurements, in the worker's thread, on a system that has settled,
+  /// and waits for it; what it throws is thrown here.
   void Ask(const Task& task);
   /// Begins anew, as if just started, after what is being worked off.
   void Reset(const std::string& reason);
@@ -83,6 +84,7 @@ class LiveSlam {
   bool AnswerRequests(std::unique_lock<std::mutex>* lock);
   void BeginAnew(std::unique_lock<std::mutex>* lock);
   void WorkOff(std::unique_lock<std::mutex>* lock);
+  void Settle(std::unique_lock<std::mutex>* lock);
   void Enqueue(std::vector<SensorEvent> events);
   void DropOldest();
   void AskForReset(const std::string& reason);
@@ -109,6 +111,7 @@ class LiveSlam {
   TimeNs newest_ = 0;
   bool working_ = false;
   bool stop_ = false;
+  bool settled_ = true;
 
   mutable std::mutex state_mutex_;
   std::deque<ImuSample> samples_;  ///< from the base state's time on

@@ -69,6 +69,7 @@ TEST_F(LiveSlamTest, GivesThePosesOfAnOfflineRun) {
     offline.Process(Room(i));
     live->Push(0, Room(i));
   }
+  offline.Settle();
   Await(*live);
   live->Ask([&](SlamSystem& system) {
     ASSERT_EQ(system.odometry().size(), 10U);
@@ -88,9 +89,9 @@ TEST_F(LiveSlamTest, DropsTheOldestWhereItCannotFollowAndSaysSo) {
   const std::shared_future<void> wait = go_on.get_future().share();
   std::vector<TimeNs> seen;
   const auto live = Make(
-      options, [&, wait](SlamSystem&, const SensorEvent& event, const std::vector<FrameReport>&) {
+      options, [&, wait](SlamSystem&, const SensorEvent* event, const std::vector<FrameReport>&) {
         wait.wait();
-        seen.push_back(EventTime(event));
+        if (event != nullptr) seen.push_back(EventTime(*event));
       });
   for (int i = 0; i < 30; ++i) live->Push(0, Room(i));
   EXPECT_LE(live->status().waiting, 6U);
@@ -107,7 +108,7 @@ TEST_F(LiveSlamTest, BeginsAnewOnRequestAndAfterAFailure) {
   std::vector<std::string> reasons;
   const auto live = Make(
       {},
-      [&](SlamSystem&, const SensorEvent&, const std::vector<FrameReport>&) {
+      [&](SlamSystem&, const SensorEvent*, const std::vector<FrameReport>&) {
         if (fails) throw InputError("no good");
       },
       [&](const std::string& reason) { reasons.push_back(reason); });

@@ -11,6 +11,7 @@
 #include "regolith/lio/lego_loam_options.h"
 #include "regolith/lio/lidar_odometry_options.h"
 #include "regolith/system/map_builder.h"
+#include "regolith/system/supervisor.h"
 #include "regolith/vio/lidar_depth_options.h"
 #include "regolith/vio/vio_options.h"
 
@@ -37,6 +38,12 @@ struct PipelineOptions {
   LidarDepthOptions lidar_depth;
   /// m/s, 1 σ of a velocity that visual odometry tells the lidar's; 0: it does not tell.
   double visual_velocity_sigma = 0.05;
+  /// s after which the camera's side sees what the lidar's found (kLio): so far the one may be
+  /// ahead of the other, and so much later the results come at most.
+  double feedback_delay = 0.3;
+  /// s without scans, after which poses are made of what IMU, wheels and camera tell.
+  double lidar_silence = 0.5;
+  SupervisorOptions supervisor;
   BackendOptions backend;  ///< of an odometry that has none of its own
   MapBuilderOptions map;
 

@@ -2,24 +2,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/system/slam_system.h"
 
-#include <cmath>
-#include <utility>
+#include <algorithm>
+#include <cstdio>
+#include <limits>
 
 #include "regolith/core/error.h"
-#include "regolith/lio/lego_loam.h"
-#include "regolith/lio/lidar_odometry.h"
 
 namespace regolith {
 namespace {
 
-constexpr double kLeastBaseline = 0.01;  // m
-/// s, by which the two images of a pair may differ.
-constexpr double kPairTime = 0.005;
-/// s, that the camera's part waits for a first state of the lidar's.
-constexpr double kStartWait = 3.0;
+/// Measurements that may wait for one side: about a second of all sensors.
+constexpr size_t kWaitingEvents = 300;
+constexpr size_t kWaitingKeyframes = 4;
+/// s for which another than the first subsystem has to have led, before a notice says so.
+constexpr double kWorthSaying = 1.0;
+
+bool HasVisualOdometry(const PipelineOptions& options, const RigCalibration& rig) {
+  return rig.imu && TracksImages(options, rig);
+}
+
+/// What a pipeline with a lidar becomes on a rig without one, where the others can go on.
+PipelineOptions AdaptedTo(PipelineOptions options, const RigCalibration& rig,
+                          std::vector<std::string>* notices) {
+  if (options.odometry != OdometryKind::kLio || !options.lio.lidar || rig.lidar) return options;
+  if (options.visual && HasVisualOdometry(options, rig)) {
+    options.odometry = OdometryKind::kVio;
+    notices->push_back("the rig has no lidar: visual–inertial odometry goes alone");
+  } else if (options.lio.wheels && rig.wheels && rig.imu) {
+    options.lio.lidar = false;
+    notices->push_back("the rig has no lidar: IMU and wheels go alone");
+  }
+  return options;
+}
 
 void CheckLidar(const PipelineOptions& options, const RigCalibration& rig) {
-  if (rig.lidar) return;
+  const bool needs_lidar = options.odometry == OdometryKind::kLegoLoam || options.lio.lidar;
+  if (!needs_lidar || rig.lidar) return;
   throw InputError("pipeline " + options.name,
                    "needs a lidar, but the rig has none; add `lidar:` to the rig file");
 }
@@ -33,25 +51,6 @@ void CheckInertialSensors(const PipelineOptions& options, const RigCalibration& 
   throw InputError("pipeline " + options.name,
                    Concatenate("does not use the lidar, and the rig has no ", lacking, "; add `",
                                lacking, ":` to the rig file or set lio.lidar=true"));
-}
-
-/// The other eye of the tracked camera; a pair without a baseline is none.
-std::string RightCamera(const PipelineOptions& options, const RigCalibration& rig) {
-  const auto left = rig.cameras.find(options.tracked_camera);
-  const auto right = rig.cameras.find("right");
-  if (left == rig.cameras.end() || right == rig.cameras.end() || left->first != "left") {
-    throw InputError("vio.stereo",
-                     "needs the cameras `left` and `right` in the rig and `tracked_camera: left`; "
-                     "leave it out for one camera");
-  }
-  const double baseline =
-      (left->second.T_imu_camera.translation - right->second.T_imu_camera.translation).norm();
-  if (baseline < kLeastBaseline) {
-    throw InputError("vio.stereo", Concatenate("the rig's cameras `left` and `right` are ",
-                                               baseline, " m apart, expected at least ",
-                                               kLeastBaseline, "; check their T_imu_camera"));
-  }
-  return right->first;
 }
 
 /// Visual–inertial odometry needs both of its sensors; the lidar's stamps say when poses are
@@ -68,20 +67,50 @@ SensorNeeds VisualNeeds(const PipelineOptions& options, const RigCalibration& ri
   SensorNeeds needs;
   needs.imu = true;
   needs.lidar = rig.lidar.has_value();
+  needs.can_lack_lidar = true;
   needs.wheels = options.vio.wheels && rig.wheels.has_value();
   needs.cameras.push_back(options.tracked_camera);
   if (options.vio.stereo) needs.cameras.push_back(RightCamera(options, rig));
   return needs;
 }
 
-std::unique_ptr<ScanOdometry> MakeScanOdometry(const PipelineOptions& options,
-                                               const RigCalibration& rig, ThreadPool* threads) {
-  if (options.odometry == OdometryKind::kVio) return nullptr;
+SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
+  if (options.odometry == OdometryKind::kVio) return VisualNeeds(options, rig);
   CheckLidar(options, rig);
-  if (options.odometry == OdometryKind::kLegoLoam) {
-    return std::make_unique<LegoLoam>(options.lego_loam, rig, threads);
+  CheckInertialSensors(options, rig);
+  SensorNeeds needs;
+  const bool tracks = TracksImages(options, rig);
+  const bool is_lio = options.odometry == OdometryKind::kLio;
+  needs.imu = is_lio && options.lio.imu && rig.imu.has_value();
+  needs.lidar = rig.lidar.has_value();
+  const bool is_visual = tracks && options.visual && needs.imu;
+  needs.wheels =
+      is_lio && (options.lio.wheels || (is_visual && options.vio.wheels)) && rig.wheels.has_value();
+  needs.can_lack_lidar =
+      is_lio && needs.imu && (is_visual || (options.lio.wheels && rig.wheels.has_value()));
+  if (tracks) needs.cameras.push_back(options.tracked_camera);
+  if (is_visual && options.vio.stereo) needs.cameras.push_back(RightCamera(options, rig));
+  return needs;
+}
+
+VisualRole RoleOf(const PipelineOptions& options, const RigCalibration& rig) {
+  if (options.odometry == OdometryKind::kVio) return VisualRole::kLeads;
+  return options.visual && HasVisualOdometry(options, rig) ? VisualRole::kHelps
+                                                           : VisualRole::kTracks;
+}
+
+std::vector<std::string> LackingSensors(const PipelineOptions& options, const RigCalibration& rig) {
+  std::vector<std::string> notices;
+  const bool is_visual = options.odometry == OdometryKind::kVio || options.visual;
+  if (!rig.wheels && options.vio.wheels && is_visual) {
+    notices.push_back("vio.wheels is set, but the rig has no wheels: it goes without");
   }
-  return std::make_unique<LidarOdometry>(options.lio, rig, threads);
+  if (is_visual && !HasVisualOdometry(options, rig)) {
+    notices.push_back(
+        Concatenate("visual odometry does not run: the rig has no ",
+                    rig.imu ? "camera `" + options.tracked_camera + "`" : std::string("imu")));
+  }
+  return notices;
 }
 
 /// LegoLoam has loops of its own; without the lidar nothing confirms them.
@@ -89,22 +118,14 @@ bool HasBackend(const PipelineOptions& options) {
   return options.backend.enabled && options.odometry == OdometryKind::kLio && options.lio.lidar;
 }
 
-FrameReport ReportOf(const ScanEstimate& estimate) {
-  FrameReport report;
-  report.stamp = estimate.stamp;
-  report.T_world_body = estimate.T_world_body;
-  report.leader = estimate.leader;
-  report.at_rest = estimate.at_rest;
-  report.points = static_cast<int>(estimate.points.size());
-  report.matches = estimate.match.system.matches;
-  report.inliers = estimate.match.system.inliers;
-  report.residual_scale = estimate.match.system.scale;
-  report.degenerate_directions = estimate.match.observable.degenerate_directions;
-  report.weakest_ratio = estimate.match.observable.weakest_ratio;
-  report.weakest_position = estimate.match.observable.weakest_position;
-  report.covariance = estimate.covariance;
-  report.stages = estimate.stages;
-  return report;
+/// The entries of measurements before `end`, in their order.
+template <typename Value>
+std::vector<Value> TakeBefore(size_t end, std::deque<std::pair<size_t, Value>>* entries) {
+  std::vector<Value> taken;
+  for (; !entries->empty() && entries->front().first < end; entries->pop_front()) {
+    taken.push_back(std::move(entries->front().second));
+  }
+  return taken;
 }
 
 }  // namespace
@@ -113,276 +134,270 @@ bool TracksImages(const PipelineOptions& options, const RigCalibration& rig) {
   return rig.cameras.count(options.tracked_camera) > 0;
 }
 
-SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
-  if (options.odometry == OdometryKind::kVio) return VisualNeeds(options, rig);
-  CheckInertialSensors(options, rig);
-  SensorNeeds needs;
-  const bool tracks = TracksImages(options, rig);
-  const bool is_lio = options.odometry == OdometryKind::kLio;
-  needs.imu = is_lio && options.lio.imu && rig.imu.has_value();
-  needs.lidar = true;
-  needs.wheels = is_lio && options.lio.wheels && rig.wheels.has_value();
-  if (tracks) needs.cameras.push_back(options.tracked_camera);
-  if (tracks && options.visual && options.vio.stereo) {
-    needs.cameras.push_back(RightCamera(options, rig));
-  }
-  return needs;
+SensorNeeds SensorsNeeded(const PipelineOptions& options, const RigCalibration& rig) {
+  std::vector<std::string> notices;
+  return NeedsOf(AdaptedTo(options, rig, &notices), rig);
 }
 
 SlamSystem::SlamSystem(const PipelineOptions& options, const RigCalibration& rig,
                        ThreadPool* threads, std::optional<Image> camera_mask)
-    : needs_(NeedsOf(options, rig)),
-      scan_odometry_(MakeScanOdometry(options, rig, threads)),
-      visual_velocity_sigma_(options.visual_velocity_sigma),
-      map_(options.map) {
-  if (HasBackend(options)) backend_ = std::make_unique<Backend>(options.backend, threads);
+    : options_(AdaptedTo(options, rig, &setup_notices_)),
+      needs_(NeedsOf(options_, rig)),
+      supervisor_(options.supervisor),
+      visual_worker_(threads->threads() > 1 ? kWaitingEvents : 0),
+      lidar_worker_(threads->threads() > 1 ? kWaitingEvents : 0) {
+  for (std::string& notice : LackingSensors(options_, rig)) {
+    setup_notices_.push_back(std::move(notice));
+  }
+  if (HasBackend(options_)) {
+    backend_ = std::make_unique<BackendPart>(options_.backend, threads,
+                                             threads->threads() > 1 ? kWaitingKeyframes : 0);
+  }
+  if (options_.odometry != OdometryKind::kVio) {
+    LidarPart::KeyframeSink sink;
+    if (backend_) sink = [this](KeyframeInput keyframe) { backend_->Add(std::move(keyframe)); };
+    lidar_ = std::make_unique<LidarPart>(options_, rig, threads, std::move(sink));
+  }
   if (!needs_.cameras.empty()) {
-    tracker_ = std::make_unique<ImageTracker>(options, rig, std::move(camera_mask));
+    visual_ =
+        std::make_unique<VisualPart>(options_, rig, RoleOf(options_, rig), std::move(camera_mask));
   }
-  const bool is_visual = options.odometry == OdometryKind::kVio;
-  // Beside the lidar's part the camera's needs an IMU and images; without them the other goes
-  // alone.
-  if (!is_visual && !(options.visual && tracker_ && rig.imu)) return;
-  if (options.vio.stereo) {
-    right_camera_ = RightCamera(options, rig);
-    const CameraCalibration& left = rig.cameras.at(options.tracked_camera);
-    const CameraCalibration& right = rig.cameras.at(right_camera_);
-    stereo_ = std::make_unique<StereoMatcher>(options.features.optical_flow, right.intrinsics,
-                                              left.T_imu_camera.Inverse() * right.T_imu_camera);
-  }
-  visual_ = std::make_unique<VisualInertialOdometry>(options.vio, rig, options.tracked_camera,
-                                                     right_camera_);
-  if (is_visual) return;
-  visual_->ExpectStart(kStartWait);
-  distances_ = std::make_unique<LidarDistances>(options.lidar_depth, rig.lidar->T_imu_lidar);
-  visual_->SetDistanceSource(distances_.get());
 }
 
-std::vector<FrameReport> SlamSystem::Process(const SensorEvent& event) {
-  std::vector<FrameReport> reports;
-  const auto take = [&reports](std::vector<FrameReport> more) {
-    for (FrameReport& report : more) reports.push_back(std::move(report));
-  };
-  if (const auto* sample = std::get_if<ImuSample>(&event)) {
-    if (tracker_) tracker_->AddImu(*sample);
-    if (visual_) take(Report(visual_->AddImu(*sample)));
-    if (scan_odometry_) take(Report(scan_odometry_->AddImu(*sample)));
-  } else if (const auto* wheels = std::get_if<WheelOdometry>(&event)) {
-    if (visual_) visual_->AddWheels(*wheels);
-    if (scan_odometry_) take(Report(scan_odometry_->AddWheels(*wheels)));
-  } else if (const auto* frame = std::get_if<CameraFrame>(&event)) {
-    if (stereo_) {
-      take(TrackPair(*frame));
-    } else if (tracker_ && frame->camera == tracker_->camera()) {
-      take(Track(*frame));
+SlamSystem::~SlamSystem() {
+  visual_worker_.Stop();
+  lidar_worker_.Stop();
+  if (backend_) backend_->Stop();
+}
+
+/// How many measurements, from the first on, are older by the feedback's delay.
+size_t SlamSystem::OlderThanFeedback(TimeNs time) {
+  const TimeNs newest = AddSeconds(time, -options_.feedback_delay);
+  young_times_.push_back(time);
+  while (young_times_.front() <= newest) young_times_.pop_front();
+  return count_ + 1 - young_times_.size();
+}
+
+/// `known`: measurements of which the lidar's side has to have told first. Without an event the
+/// side finishes, which is numbered like one.
+void SlamSystem::PostVisual(size_t number, size_t known, std::shared_ptr<const SensorEvent> event) {
+  visual_worker_.Post([this, number, known, event = std::move(event)] {
+    lidar_worker_.WaitFor(known);
+    std::vector<std::shared_ptr<const ScanEstimate>> estimates;
+    {
+      const std::lock_guard lock(exchange_);
+      estimates = TakeBefore(known, &estimates_);
     }
-  } else if (const auto* scan = std::get_if<LidarScan>(&event)) {
-    ++scans_seen_;
-    if (visual_) visual_->AddStamp(scan->stamp);
-    if (scan_odometry_) take(Report(scan_odometry_->AddScan(*scan)));
+    for (const auto& estimate : estimates) visual_->AddScanEstimate(*estimate);
+    std::vector<FrameReport> reports = event ? visual_->Process(*event) : visual_->Finish();
+    const std::lock_guard lock(exchange_);
+    if (visual_->tracks().stamp != tracks_.stamp) tracks_ = visual_->tracks();
+    for (FrameReport& report : reports) visual_reports_.emplace_back(number, std::move(report));
+    if (lidar_) {
+      velocities_.emplace_back(number, visual_->TakeVelocities());
+    } else if (!reports.empty()) {
+      newest_ = visual_->Newest();
+    }
+  });
+}
+
+void SlamSystem::PostLidar(size_t number, std::shared_ptr<const SensorEvent> event) {
+  lidar_worker_.Post([this, number, event = std::move(event)] {
+    std::vector<std::vector<BodyVelocity>> velocities;
+    if (visual_) {
+      visual_worker_.WaitFor(number + 1);
+      const std::lock_guard lock(exchange_);
+      velocities = TakeBefore(number + 1, &velocities_);
+    }
+    for (const auto& group : velocities) {
+      for (const BodyVelocity& velocity : group) lidar_->AddVelocity(velocity);
+    }
+    std::vector<FrameReport> reports = event ? lidar_->Process(*event) : lidar_->Finish();
+    std::vector<std::shared_ptr<const ScanEstimate>> estimates = lidar_->TakeEstimates();
+    const std::lock_guard lock(exchange_);
+    for (FrameReport& report : reports) lidar_reports_.emplace_back(number, std::move(report));
+    for (auto& estimate : estimates) {
+      if (estimate->inertial) newest_ = estimate->inertial;
+      if (visual_) estimates_.emplace_back(number, std::move(estimate));
+    }
+  });
+}
+
+void SlamSystem::FollowLive(const SensorEvent& event) {
+  if (const auto* sample = std::get_if<ImuSample>(&event)) live_.AddImu(*sample);
+  const std::lock_guard lock(exchange_);
+  if (newest_) live_.Correct(*std::exchange(newest_, std::nullopt));
+}
+
+std::vector<FrameReport> SlamSystem::Process(SensorEvent event) {
+  RethrowFailure();
+  const TimeNs time = EventTime(event);
+  if (std::holds_alternative<LidarScan>(event)) ++scans_seen_;
+  if (std::holds_alternative<ImuSample>(event)) {
+    sensor_times_.push_back({count_, {Subsystem::kImu, time}});
+  } else if (std::holds_alternative<WheelOdometry>(event)) {
+    sensor_times_.push_back({count_, {Subsystem::kWheels, time}});
   }
-  return reports;
+  const auto shared = std::make_shared<const SensorEvent>(std::move(event));
+  const size_t known = lidar_ ? OlderThanFeedback(time) : 0;
+  if (visual_) PostVisual(count_, known, shared);
+  if (lidar_) PostLidar(count_, shared);
+  ++count_;
+  FollowLive(*shared);
+  return Collect();
+}
+
+std::vector<FrameReport> SlamSystem::Settle() {
+  visual_worker_.WaitFor(visual_worker_.posted());
+  lidar_worker_.WaitFor(lidar_worker_.posted());
+  if (backend_) backend_->Settle();
+  return Collect();
 }
 
 std::vector<FrameReport> SlamSystem::Finish() {
-  std::vector<FrameReport> reports;
-  if (visual_) reports = Report(visual_->Finish());
-  for (FrameReport& report : tracked_) reports.push_back(std::move(report));
-  tracked_.clear();
-  if (!scan_odometry_) return reports;
-  for (FrameReport& report : Report(scan_odometry_->Finish())) reports.push_back(std::move(report));
+  RethrowFailure();
+  std::vector<FrameReport> reports = Settle();
+  if (visual_) PostVisual(count_, lidar_ ? count_ : 0, nullptr);
+  if (lidar_) PostLidar(count_, nullptr);
+  ++count_;
+  for (FrameReport& report : Settle()) reports.push_back(std::move(report));
+  RethrowFailure();
   return reports;
+}
+
+/// Both sides' reports in the order of their measurements, the camera's first, as far as nothing
+/// can come before them any more.
+std::vector<FrameReport> SlamSystem::Collect() {
+  constexpr size_t kAll = std::numeric_limits<size_t>::max();
+  const size_t visual_done = visual_ ? visual_worker_.done() : kAll;
+  const size_t lidar_done = lidar_ ? lidar_worker_.done() : kAll;
+  std::vector<FrameReport> reports;
+  const std::lock_guard lock(exchange_);
+  while (true) {
+    const size_t visual = visual_reports_.empty() ? kAll : visual_reports_.front().first;
+    const size_t lidar = lidar_reports_.empty() ? kAll : lidar_reports_.front().first;
+    if (visual == kAll && lidar == kAll) break;
+    const bool is_visual = visual <= lidar;
+    const size_t number = is_visual ? visual : lidar;
+    if (is_visual ? lidar_done < number : visual_done < number + 1) break;
+    Numbered<FrameReport>& source = is_visual ? visual_reports_ : lidar_reports_;
+    FrameReport& front = source.front().second;
+    if (front.keyframe) {
+      if (!backend_->HasDone(*front.keyframe)) break;
+      for (StageTime& stage : backend_->TakeStages(*front.keyframe)) {
+        front.stages.push_back(std::move(stage));
+      }
+    }
+    Supervise(number, &front);
+    reports.push_back(std::move(front));
+    source.pop_front();
+  }
+  return reports;
+}
+
+void SlamSystem::ObserveSensors(size_t number) {
+  for (const auto& [subsystem, time] : TakeBefore(number + 1, &sensor_times_)) {
+    TimeNs& last = observed_[static_cast<size_t>(subsystem)];
+    last = std::max(last, time);
+    supervisor_.Observe(subsystem, last, true);
+  }
+}
+
+void SlamSystem::Supervise(size_t number, FrameReport* report) {
+  ObserveSensors(number);
+  const auto observe = [&](Subsystem subsystem, TimeNs time, bool is_good) {
+    TimeNs& last = observed_[static_cast<size_t>(subsystem)];
+    last = std::max(last, time);
+    supervisor_.Observe(subsystem, last, is_good);
+  };
+  if (report->source == FrameSource::kScan && report->has_scan) {
+    const bool is_matched = report->leader.rfind("lidar", 0) == 0;
+    observe(Subsystem::kLidar, report->stamp,
+            is_matched &&
+                report->degenerate_directions <= options_.supervisor.max_degenerate_directions);
+  } else if (report->visual && report->visual->has_image) {
+    observe(Subsystem::kCamera, report->end, report->visual->health == VioHealth::kGood);
+  }
+  const TimeNs now = std::max(supervised_.value_or(report->end), report->end);
+  report->led_by = supervisor_.Leader(now);
+  for (size_t i = 0; i < kSubsystems; ++i) {
+    report->states[i] = supervisor_.State(static_cast<Subsystem>(i), now);
+  }
+  const size_t leader = report->led_by ? static_cast<size_t>(*report->led_by) : kSubsystems;
+  if (supervised_) led_seconds_[leader] += SecondsBetween(*supervised_, now);
+  supervised_ = now;
+}
+
+void SlamSystem::RethrowFailure() const {
+  visual_worker_.RethrowFailure();
+  lidar_worker_.RethrowFailure();
+  if (backend_) backend_->RethrowFailure();
+}
+
+ImageTracks SlamSystem::tracks() const {
+  const std::lock_guard lock(exchange_);
+  return tracks_;
+}
+
+const Trajectory& SlamSystem::odometry() const {
+  return lidar_ ? lidar_->trajectory() : visual_->trajectory();
+}
+
+size_t SlamSystem::stamps_seen() const {
+  if (lidar_) return lidar_->stamps();
+  return scans_seen_ > 0 ? scans_seen_ : images_seen();
 }
 
 KeyframeCounts SlamSystem::keyframe_counts() const {
   if (backend_) {
-    return {backend_->keyframes().size(), backend_->loops_accepted(), backend_->loops_rejected()};
+    const Backend& backend = backend_->backend();
+    return {backend.keyframes().size(), backend.loops_accepted(), backend.loops_rejected()};
   }
-  if (scan_odometry_) return scan_odometry_->Counts();
+  if (lidar_) return lidar_->Counts();
   KeyframeCounts counts;
   counts.keyframes = visual_->keyframes();
   return counts;
 }
 
 std::vector<std::string> SlamSystem::Notices() const {
-  std::vector<std::string> notices;
-  if (scan_odometry_) notices = scan_odometry_->Notices();
-  if (!visual_) return notices;
-  for (std::string& notice : visual_->Notices()) notices.push_back(std::move(notice));
-  if (pairs_missed_ > 0) {
-    notices.push_back(Concatenate(pairs_missed_,
-                                  " images of the left camera had no right one within ", kPairTime,
-                                  " s: they went alone; check the stereo pair's stamps"));
+  std::vector<std::string> notices = setup_notices_;
+  const auto add = [&](std::vector<std::string> more) {
+    for (std::string& notice : more) notices.push_back(std::move(notice));
+  };
+  if (lidar_) add(lidar_->Notices());
+  if (visual_) add(visual_->Notices());
+  std::string led;
+  double others = 0.0;
+  const double most = *std::max_element(led_seconds_.begin(), led_seconds_.end());
+  for (size_t i = 0; i <= kSubsystems; ++i) {
+    if (led_seconds_[i] < 0.05) continue;
+    if (led_seconds_[i] < most) others += led_seconds_[i];
+    char text[64];
+    std::snprintf(text, sizeof text, "%s%s %.1f s", led.empty() ? "" : ", ",
+                  i < kSubsystems ? SubsystemName(static_cast<Subsystem>(i)) : "nobody",
+                  led_seconds_[i]);
+    led += text;
   }
+  if (others > kWorthSaying) notices.push_back("led by: " + led);
   return notices;
 }
 
 Trajectory SlamSystem::trajectory() const {
-  if (backend_) return backend_->Corrected(odometry_);
-  if (scan_odometry_) return scan_odometry_->Refined().value_or(odometry_);
-  const FrameHistory history = visual_->window().History();
-  Trajectory refined;
-  for (size_t i = 0; i < odometry_.size(); ++i) {
-    refined.Append(
-        {odometry_.poses()[i].time, history.Pose(anchors_[i].frame) * anchors_[i].T_frame_body});
-  }
-  return refined;
-}
-
-std::vector<FrameReport> SlamSystem::Report(std::vector<ScanEstimate> estimates) {
-  std::vector<FrameReport> reports;
-  for (const ScanEstimate& estimate : estimates) {
-    Stopwatch stopwatch;
-    odometry_.Append({estimate.stamp, estimate.T_world_body});
-    map_.Add(estimate.points, static_cast<uint32_t>(odometry_.size() - 1));
-    stopwatch.Lap("output_map");
-    reports.push_back(ReportOf(estimate));
-    std::vector<StageTime>& stages = reports.back().stages;
-    for (const StageTime& stage : stopwatch.stages()) stages.push_back(stage);
-    for (const StageTime& stage : AddKeyframe(estimate)) stages.push_back(stage);
-    TellScan(estimate);
-  }
-  return reports;
-}
-
-std::vector<StageTime> SlamSystem::AddKeyframe(const ScanEstimate& estimate) {
-  if (!backend_ || !backend_->IsKeyframe(estimate.stamp, estimate.T_world_body)) return {};
-  KeyframeInput keyframe;
-  keyframe.time = estimate.stamp;
-  keyframe.T_odom_body = estimate.T_world_body;
-  keyframe.covariance = estimate.covariance;
-  keyframe.is_level = estimate.inertial.has_value();
-  const SE3 T_body_world = estimate.T_world_body.Inverse();
-  keyframe.points_body.reserve(estimate.points.size());
-  for (const MapPoint& point : estimate.points) {
-    keyframe.points_body.push_back(T_body_world * point.position.cast<double>());
-  }
-  return backend_->Add(keyframe);
-}
-
-/// What the lidar's part knows helps the camera's.
-void SlamSystem::TellScan(const ScanEstimate& estimate) {
-  if (tracker_ && estimate.inertial) tracker_->SetGyroBias(estimate.inertial->state.gyro_bias);
-  if (!distances_) return;
-  distances_->AddScan(estimate);
-  if (estimate.inertial) {
-    visual_->SetStart(estimate.inertial->state, estimate.inertial->gravity_world);
-  }
-}
-
-/// And the other way round.
-void SlamSystem::TellVelocity(const VioEstimate& estimate) {
-  if (visual_velocity_sigma_ <= 0.0 || estimate.health != VioHealth::kGood) return;
-  const NavState& state = estimate.state;
-  scan_odometry_->AddVelocity({state.time,
-                               state.T_world_imu.rotation.conjugate() * state.v_world_imu,
-                               visual_velocity_sigma_});
-}
-
-/// At scans where there are any, else at images.
-void SlamSystem::KeepVisualPoses(const std::vector<VioEstimate>& estimates) {
-  const auto keep = [this](TimeNs time, const NavState& state, const VisualAnchor& anchor) {
-    if (!odometry_.empty() && time <= odometry_.poses().back().time) return;
-    odometry_.Append({time, state.T_world_imu});
-    anchors_.push_back(anchor);
-  };
-  for (const StampedState& stamped : visual_->TakeStamped()) {
-    if (distances_) {
-      distances_->AddVisual(stamped);
-    } else {
-      keep(stamped.time, stamped.state, {stamped.frame, stamped.T_frame_imu});
-    }
-  }
-  if (scans_seen_ > 0 || distances_) return;
-  for (const VioEstimate& estimate : estimates) {
-    if (estimate.has_image) keep(estimate.state.time, estimate.state, {estimate.frame, SE3()});
-  }
-}
-
-std::vector<FrameReport> SlamSystem::Report(std::vector<VioEstimate> estimates) {
-  KeepVisualPoses(estimates);
-  std::vector<FrameReport> reports;
-  for (VioEstimate& estimate : estimates) {
-    if (distances_) TellVelocity(estimate);
-    FrameReport report;
-    // Images from before the start, or too near the one before, have no estimate.
-    for (; !tracked_.empty() && tracked_.front().stamp < estimate.stamp; tracked_.pop_front()) {
-      reports.push_back(std::move(tracked_.front()));
-    }
-    if (estimate.has_image && !tracked_.empty() && tracked_.front().stamp == estimate.stamp) {
-      report = std::move(tracked_.front());
-      tracked_.pop_front();
-    }
-    report.source = FrameSource::kImage;
-    report.stamp = estimate.stamp;
-    report.leader = "camera";
-    report.at_rest = estimate.at_rest;
-    report.T_world_body = estimate.state.T_world_imu;
-    report.covariance = estimate.covariance.topLeftCorner<6, 6>();
-    for (const StageTime& stage : estimate.stages) report.stages.push_back(stage);
-    report.visual = std::move(estimate);
-    reports.push_back(std::move(report));
-  }
-  if (!distances_ && !estimates.empty()) tracker_->SetGyroBias(visual_->gyro_bias());
-  return reports;
+  if (!lidar_) return visual_->Refined();
+  if (backend_) return backend_->backend().Corrected(odometry());
+  return lidar_->Refined().value_or(odometry());
 }
 
 std::vector<MapPoint> SlamSystem::MapPoints() const {
-  if (!scan_odometry_) return {};
-  if (!backend_ && !scan_odometry_->Refined()) return map_.points();
+  if (!lidar_) return {};
+  if (!backend_ && !lidar_->Refined()) return lidar_->map().points();
   const Trajectory best = trajectory();
   std::vector<SE3> corrections;
-  for (size_t i = 0; i < odometry_.size(); ++i) {
+  for (size_t i = 0; i < odometry().size(); ++i) {
     corrections.push_back(best.poses()[i].T_world_body *
-                          odometry_.poses()[i].T_world_body.Inverse());
+                          odometry().poses()[i].T_world_body.Inverse());
   }
-  return map_.Moved(corrections);
-}
-
-/// An eye waits for the other; where that does not come, the left goes alone.
-std::vector<FrameReport> SlamSystem::TrackPair(const CameraFrame& frame) {
-  std::vector<FrameReport> reports;
-  if (frame.camera == right_camera_) {
-    waiting_right_ = frame;
-  } else if (frame.camera == tracker_->camera()) {
-    if (waiting_left_) {
-      ++pairs_missed_;
-      reports = Track(*std::exchange(waiting_left_, std::nullopt));
-    }
-    waiting_left_ = frame;
-  }
-  if (!waiting_left_ || !waiting_right_ ||
-      std::abs(SecondsBetween(waiting_left_->time, waiting_right_->time)) > kPairTime) {
-    return reports;
-  }
-  for (FrameReport& report : Track(*std::exchange(waiting_left_, std::nullopt))) {
-    reports.push_back(std::move(report));
-  }
-  waiting_right_.reset();
-  return reports;
-}
-
-std::vector<FrameReport> SlamSystem::Track(const CameraFrame& frame) {
-  ++images_seen_;
-  TrackedFrame tracked = tracker_->Track(frame.time, frame.image);
-  FrameReport report;
-  report.source = FrameSource::kImage;
-  report.stamp = frame.time;
-  report.leader = "camera";
-  report.features = tracked.status;
-  report.stages = std::move(tracked.stages);
-  tracks_ = {frame.time, tracked.features};
-  if (!visual_) return {report};
-  VioFrame features{frame.time, std::move(tracked.features), {}};
-  if (stereo_ && waiting_right_ &&
-      std::abs(SecondsBetween(frame.time, waiting_right_->time)) <= kPairTime) {
-    Stopwatch stopwatch;
-    features.right_bearings = stereo_->Match(frame.image, waiting_right_->image, features.features);
-    stopwatch.Lap("features_stereo");
-    for (const StageTime& stage : stopwatch.stages()) report.stages.push_back(stage);
-  }
-  tracked_.push_back(std::move(report));
-  return Report(visual_->AddFrame(std::move(features)));
+  return lidar_->map().Moved(corrections);
 }
 
 }  // namespace regolith

@@ -2,25 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <deque>
-#include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "regolith/backend/backend.h"
+#include "regolith/core/serial_worker.h"
 #include "regolith/core/thread_pool.h"
-#include "regolith/features/stereo_matcher.h"
 #include "regolith/geometry/trajectory.h"
-#include "regolith/lio/scan_odometry.h"
 #include "regolith/sensor/rig_calibration.h"
 #include "regolith/sensor/sensor_event.h"
-#include "regolith/system/image_tracker.h"
-#include "regolith/system/lidar_distances.h"
-#include "regolith/system/map_builder.h"
+#include "regolith/system/backend_part.h"
+#include "regolith/system/frame_report.h"
+#include "regolith/system/lidar_part.h"
+#include "regolith/system/live_state.h"
 #include "regolith/system/pipeline_options.h"
-#include "regolith/vio/visual_inertial_odometry.h"
+#include "regolith/system/supervisor.h"
+#include "regolith/system/visual_part.h"
 
 namespace regolith {
 
@@ -30,117 +32,110 @@ struct SensorNeeds {
   bool lidar = false;
   bool wheels = false;
   std::vector<std::string> cameras;  ///< names in the rig
-};
-
-enum class FrameSource { kScan, kImage };
-
-/// What the system says of one scan or image.
-struct FrameReport {
-  FrameSource source = FrameSource::kScan;
-  TimeNs stamp = 0;
-  std::vector<StageTime> stages;
-
-  // Of a scan.
-  SE3 T_world_body;    ///< as known when the frame had been worked off
-  std::string leader;  ///< of an image "camera"
-  bool at_rest = false;
-  int points = 0;
-  int matches = 0;
-  double inliers = 0.0;
-  double residual_scale = 0.0;    ///< m
-  int degenerate_directions = 0;  ///< of six, that the scan says nothing of
-  /// Information over noise where that is least, and the direction (unit, world): ObservableSystem.
-  double weakest_ratio = 0.0;
-  Eigen::Vector3d weakest_position = Eigen::Vector3d::Zero();
-  Matrix6d covariance = Matrix6d::Zero();  ///< [rotation (right, rad), position (m)]
-
-  FrontendStatus features;            ///< of an image
-  std::optional<VioEstimate> visual;  ///< of an image that visual–inertial odometry has worked off
+  bool can_lack_lidar = false;       ///< the others carry on without
 };
 
 /// Whether a pipeline tracks images of this rig: it names a camera that is there.
 bool TracksImages(const PipelineOptions& options, const RigCalibration& rig);
 
 /// What a pipeline reads of this rig. Throws InputError as SlamSystem does.
-SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig);
-
-/// The features of an image, as tracked.
-struct ImageTracks {
-  TimeNs stamp = 0;
-  std::vector<TrackedFeature> features;
-};
+SensorNeeds SensorsNeeded(const PipelineOptions& options, const RigCalibration& rig);
 
 /// A whole pipeline: takes measurements in order of their stamps and makes a trajectory and a map
 /// of them. The same code serves recordings and live sensors, and it never waits for a clock.
+///
+/// The camera's side, the lidar's and the back end each work on a thread of their own where there
+/// are threads. What they tell each other goes by the order of the measurements: the lidar's side
+/// takes a measurement after the camera's has, and the camera's sees what the lidar's has found
+/// `feedback_delay` later. So results do not depend on threads, nor on how fast they are.
 class SlamSystem {
  public:
-  /// Throws InputError where the rig lacks a sensor that the pipeline cannot do without. A camera
-  /// is none of those. `camera_mask` belongs to the tracked camera (ImageTracker).
+  /// A rig that lacks a sensor is served by the others, as far as the pipeline can do without it;
+  /// else throws InputError. `camera_mask` belongs to the tracked camera (ImageTracker).
   SlamSystem(const PipelineOptions& options, const RigCalibration& rig, ThreadPool* threads,
              std::optional<Image> camera_mask = std::nullopt);
+  ~SlamSystem();
 
   const SensorNeeds& needs() const { return needs_; }
 
-  /// The frames that this measurement completed, mostly none.
-  std::vector<FrameReport> Process(const SensorEvent& event);
-  /// The frames that still waited for measurements.
+  /// Takes a measurement; gives the frames that are completed, in an order of their own stamps and
+  /// sources that is the same on every run. Throws what went wrong with an earlier one, too.
+  std::vector<FrameReport> Process(SensorEvent event);
+  /// Waits until all that was given is worked off. Does not throw.
+  std::vector<FrameReport> Settle();
+  /// The same, with frames that still waited for measurements.
   std::vector<FrameReport> Finish();
 
+  /// The state at the newest IMU sample, smooth through corrections, in the frame `odom`. Nothing
+  /// before the first pose, nor without an IMU. For live use: it depends on how fast the computer
+  /// is.
+  std::optional<NavState> live() const { return live_.state(); }
+  /// Where `odom` lies in the map that loops have corrected.
+  SE3 T_map_odom() const { return backend_ ? backend_->T_map_odom() : SE3(); }
+  /// Of the last image that has been tracked, to be shown. For live use, likewise.
+  ImageTracks tracks() const;
+
+  // What follows is for after Settle or Finish, until the next measurement.
+
   /// Poses of the body as first put out, at each frame's stamp.
-  const Trajectory& odometry() const { return odometry_; }
+  const Trajectory& odometry() const;
   /// The best poses known now.
   Trajectory trajectory() const;
   /// The map as it lies with the best poses known now.
   std::vector<MapPoint> MapPoints() const;
-
   size_t scans_seen() const { return scans_seen_; }
-  size_t images_seen() const { return images_seen_; }
-  /// Stamps at which a pose is expected: scans, or images where no scan came.
-  size_t stamps_seen() const { return scans_seen_ > 0 ? scans_seen_ : images_seen_; }
+  size_t images_seen() const { return visual_ ? visual_->images() : 0; }
+  /// Stamps at which a pose is expected: scans (and in a time without them, moments at their
+  /// rate), or images where no scan came.
+  size_t stamps_seen() const;
   /// New starts of an odometry that had lost its way.
   size_t resets() const { return visual_ ? visual_->resets() : 0; }
   KeyframeCounts keyframe_counts() const;
-  /// Of the last image that was tracked, to be shown.
-  const ImageTracks& tracks() const { return tracks_; }
   /// Keyframes and loops; null where the pipeline has no back end, or one inside its odometry.
-  const Backend* backend() const { return backend_.get(); }
+  const Backend* backend() const { return backend_ ? &backend_->backend() : nullptr; }
   std::vector<std::string> Notices() const;
 
  private:
-  std::vector<FrameReport> Report(std::vector<ScanEstimate> estimates);
-  std::vector<FrameReport> Report(std::vector<VioEstimate> estimates);
-  std::vector<FrameReport> Track(const CameraFrame& frame);
-  std::vector<FrameReport> TrackPair(const CameraFrame& frame);
-  std::vector<StageTime> AddKeyframe(const ScanEstimate& estimate);
-  void TellScan(const ScanEstimate& estimate);
-  void TellVelocity(const VioEstimate& estimate);
-  void KeepVisualPoses(const std::vector<VioEstimate>& estimates);
+  template <typename Value>
+  using Numbered = std::deque<std::pair<size_t, Value>>;  ///< by the measurement it came of
 
-  /// What a pose of visual odometry goes with: a frame of its window's history.
-  struct VisualAnchor {
-    size_t frame = 0;
-    SE3 T_frame_body;
-  };
+  void PostVisual(size_t number, size_t known, std::shared_ptr<const SensorEvent> event);
+  void PostLidar(size_t number, std::shared_ptr<const SensorEvent> event);
+  size_t OlderThanFeedback(TimeNs time);
+  void FollowLive(const SensorEvent& event);
+  std::vector<FrameReport> Collect();
+  void Supervise(size_t number, FrameReport* report);
+  void ObserveSensors(size_t number);
+  void RethrowFailure() const;
 
+  std::vector<std::string> setup_notices_;  ///< what the rig lacks of what the options ask for
+  PipelineOptions options_;                 ///< as this rig can serve them
   SensorNeeds needs_;
-  std::unique_ptr<ScanOdometry> scan_odometry_;     ///< null without a lidar's part
-  std::unique_ptr<Backend> backend_;                ///< null where there is none
-  std::unique_ptr<VisualInertialOdometry> visual_;  ///< null without a camera's part
-  std::unique_ptr<LidarDistances> distances_;       ///< where both are
-  double visual_velocity_sigma_;
-  std::vector<VisualAnchor> anchors_;      ///< of the poses of `odometry_`
-  std::deque<FrameReport> tracked_;        ///< images that wait for their estimate
-  std::unique_ptr<StereoMatcher> stereo_;  ///< null with one camera
-  std::string right_camera_;
-  std::optional<CameraFrame> waiting_left_;   ///< for its right one
-  std::optional<CameraFrame> waiting_right_;  ///< for its left one
-  size_t pairs_missed_ = 0;
-  std::unique_ptr<ImageTracker> tracker_;  ///< null where no images are tracked
+  std::unique_ptr<VisualPart> visual_;    ///< null without a camera
+  std::unique_ptr<LidarPart> lidar_;      ///< null where the camera's side leads
+  std::unique_ptr<BackendPart> backend_;  ///< null where there is none
+
+  mutable std::mutex exchange_;  ///< guards what the sides leave for each other and for the caller
+  Numbered<std::vector<BodyVelocity>> velocities_;
+  Numbered<std::shared_ptr<const ScanEstimate>> estimates_;
+  Numbered<FrameReport> visual_reports_;
+  Numbered<FrameReport> lidar_reports_;
+  std::optional<InertialState> newest_;  ///< that `live_` has not taken yet
   ImageTracks tracks_;
-  MapBuilder map_;
-  Trajectory odometry_;
+
+  // The caller's own.
+  size_t count_ = 0;                ///< measurements so far
+  std::deque<TimeNs> young_times_;  ///< of measurements younger than the feedback
   size_t scans_seen_ = 0;
-  size_t images_seen_ = 0;
+  LiveState live_;
+  Supervisor supervisor_;
+  Numbered<std::pair<Subsystem, TimeNs>> sensor_times_;  ///< that the supervisor has not seen yet
+  std::array<TimeNs, kSubsystems> observed_ = {};
+  std::array<double, kSubsystems + 1> led_seconds_ = {};  ///< the last: nobody
+  std::optional<TimeNs> supervised_;
+
+  SerialWorker visual_worker_;
+  SerialWorker lidar_worker_;
 };
 
 }  // namespace regolith

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "regolith/core/error.h"
 #include "regolith/core/random.h"
 
@@ -27,6 +29,17 @@ LidarScan Room(TimeNs stamp) {
     }
   }
   return scan;
+}
+
+RigCalibration RigWithCamera() {
+  RigCalibration rig;
+  rig.lidar.emplace();
+  CameraCalibration& camera = rig.cameras["mono"];
+  camera.intrinsics.width = 160;
+  camera.intrinsics.height = 120;
+  camera.intrinsics.focal = {100.0, 100.0};
+  camera.intrinsics.principal_point = {79.5, 59.5};
+  return rig;
 }
 
 TEST(SlamSystem, EveryScanGetsAPoseAndTheMapGrows) {
@@ -80,6 +93,35 @@ TEST(SlamSystem, WithoutTheLidarTheOtherSensorsHaveToBeThere) {
   EXPECT_TRUE(SlamSystem(options, rig, &threads).needs().wheels);
 }
 
+TEST(SlamSystem, SaysWhatTheRigLacksOfWhatTheOptionsAskFor) {
+  PipelineOptions options;
+  options.visual = true;
+  options.vio.wheels = true;
+  options.tracked_camera = "mono";
+  RigCalibration rig;
+  rig.lidar.emplace();
+  ThreadPool threads(1);
+  const std::vector<std::string> notices = SlamSystem(options, rig, &threads).Notices();
+  ASSERT_EQ(notices.size(), 2U);
+  EXPECT_NE(notices[0].find("no wheels"), std::string::npos);
+  EXPECT_NE(notices[1].find("no imu"), std::string::npos);
+}
+
+TEST(SlamSystem, WheelsOfTheCamerasPartAreRead) {
+  PipelineOptions options;
+  options.visual = true;
+  options.vio.wheels = true;
+  options.tracked_camera = "mono";
+  options.features.frontend = "st_lk";
+  RigCalibration rig = RigWithCamera();
+  rig.imu.emplace();
+  rig.wheels.emplace();
+  ThreadPool threads(1);
+  EXPECT_TRUE(SlamSystem(options, rig, &threads).needs().wheels);
+  options.vio.wheels = false;
+  EXPECT_FALSE(SlamSystem(options, rig, &threads).needs().wheels);
+}
+
 TEST(SlamSystem, LegoLoamReadsTheLidarAlone) {
   PipelineOptions options;
   options.odometry = OdometryKind::kLegoLoam;
@@ -92,17 +134,6 @@ TEST(SlamSystem, LegoLoamReadsTheLidarAlone) {
   const SlamSystem system(options, rig, &threads);
   EXPECT_FALSE(system.needs().imu);
   EXPECT_FALSE(system.needs().wheels);
-}
-
-RigCalibration RigWithCamera() {
-  RigCalibration rig;
-  rig.lidar.emplace();
-  CameraCalibration& camera = rig.cameras["mono"];
-  camera.intrinsics.width = 160;
-  camera.intrinsics.height = 120;
-  camera.intrinsics.focal = {100.0, 100.0};
-  camera.intrinsics.principal_point = {79.5, 59.5};
-  return rig;
 }
 
 TEST(SlamSystem, TracksTheImagesOfTheCameraNamed) {
@@ -138,9 +169,127 @@ TEST(SlamSystem, TracksTheImagesOfTheCameraNamed) {
   EXPECT_TRUE(system.trajectory().poses().empty());
 }
 
-TEST(SlamSystem, ARigWithoutALidarIsRefused) {
+TEST(SlamSystem, ARigWithoutALidarIsServedByTheOthersOrRefused) {
   ThreadPool threads(1);
-  EXPECT_THROW(SlamSystem({}, RigCalibration(), &threads), InputError);
+  PipelineOptions options;
+  EXPECT_THROW(SlamSystem(options, RigCalibration(), &threads), InputError);
+  options.visual = true;
+  options.lio.wheels = true;
+  options.tracked_camera = "mono";
+  options.features.frontend = "st_lk";
+  RigCalibration rig = RigWithCamera();
+  rig.lidar.reset();
+  EXPECT_THROW(SlamSystem(options, rig, &threads), InputError);
+  rig.imu.emplace();
+  const SlamSystem sees(options, rig, &threads);
+  EXPECT_EQ(sees.needs().cameras.size(), 1U);
+  EXPECT_NE(sees.Notices()[0].find("no lidar: visual"), std::string::npos);
+  rig.cameras.clear();
+  EXPECT_THROW(SlamSystem(options, rig, &threads), InputError);
+  rig.wheels.emplace();
+  const SlamSystem rolls(options, rig, &threads);
+  EXPECT_TRUE(rolls.needs().wheels);
+  EXPECT_FALSE(rolls.needs().lidar);
+  EXPECT_NE(rolls.Notices()[0].find("no lidar: IMU and wheels"), std::string::npos);
+}
+
+/// A still rover in a room: 20 scans, with IMU and wheels; none of the lidar from `from` to `to`.
+std::vector<FrameReport> StandInRoom(SlamSystem* system, double from, double to) {
+  std::vector<FrameReport> reports;
+  const auto take = [&](std::vector<FrameReport> more) {
+    for (FrameReport& report : more) reports.push_back(std::move(report));
+  };
+  for (int i = 0; i < 1200; ++i) {
+    const double time = 0.005 * i;
+    ImuSample sample;
+    sample.time = FromSeconds(time);
+    sample.specific_force = {0.0, 0.0, 9.81};
+    take(system->Process(sample));
+    WheelOdometry wheels;
+    wheels.time = sample.time;
+    if (i % 4 == 0) take(system->Process(wheels));
+    if (i % 20 == 0 && (time < from || time >= to)) take(system->Process(Room(sample.time)));
+  }
+  take(system->Finish());
+  return reports;
+}
+
+TEST(SlamSystem, ReportsDoNotDependOnThreads) {
+  RigCalibration rig;
+  rig.lidar.emplace();
+  rig.imu.emplace();
+  rig.wheels.emplace();
+  rig.gravity = 9.81;
+  PipelineOptions options;
+  options.lio.wheels = true;
+  std::vector<std::vector<FrameReport>> runs;
+  for (const int count : {1, 3}) {
+    ThreadPool threads(count);
+    SlamSystem system(options, rig, &threads);
+    runs.push_back(StandInRoom(&system, 7.0, 7.0));
+    EXPECT_EQ(system.trajectory().size(), 60U);
+    ASSERT_TRUE(system.live());
+    EXPECT_LT(system.live()->T_world_imu.translation.norm(), 0.05);
+    EXPECT_EQ(system.live()->time, FromSeconds(0.005 * 1199));
+  }
+  ASSERT_EQ(runs[0].size(), 60U);
+  ASSERT_EQ(runs[1].size(), 60U);
+  for (size_t i = 0; i < runs[0].size(); ++i) {
+    EXPECT_EQ(runs[0][i].stamp, runs[1][i].stamp);
+    EXPECT_EQ(runs[0][i].states, runs[1][i].states);
+    EXPECT_EQ(runs[0][i].T_world_body.translation, runs[1][i].T_world_body.translation);
+    EXPECT_EQ(runs[0][i].covariance, runs[1][i].covariance);
+  }
+}
+
+TEST(SlamSystem, TheOthersCarryOnWhileTheLidarIsSilent) {
+  RigCalibration rig;
+  rig.lidar.emplace();
+  rig.imu.emplace();
+  rig.wheels.emplace();
+  rig.gravity = 9.81;
+  PipelineOptions options;
+  options.lio.wheels = true;
+  ThreadPool threads(2);
+  SlamSystem system(options, rig, &threads);
+  const std::vector<FrameReport> reports = StandInRoom(&system, 2.0, 4.0);
+  size_t without = 0;
+  for (const FrameReport& report : reports) {
+    if (report.has_scan) continue;
+    ++without;
+    EXPECT_EQ(report.leader, "wheels+imu");
+    EXPECT_LT(report.T_world_body.translation.norm(), 0.05);
+    if (SecondsBetween(FromSeconds(2.6), report.stamp) > 0.0) {
+      EXPECT_EQ(report.led_by, Subsystem::kWheels);
+      EXPECT_EQ(report.states[0], SubsystemState::kSilent);
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(without), 17.0, 2.0);
+  EXPECT_EQ(system.stamps_seen(), system.trajectory().size());
+  EXPECT_EQ(reports.back().led_by, Subsystem::kLidar);
+  const std::vector<std::string> notices = system.Notices();
+  EXPECT_TRUE(std::any_of(notices.begin(), notices.end(), [](const std::string& notice) {
+    return notice.rfind("led by: lidar", 0) == 0 && notice.find("wheels") != std::string::npos;
+  }));
+}
+
+TEST(SlamSystem, WhatGoesWrongInsideReachesTheCaller) {
+  for (const int count : {1, 2}) {
+    RigCalibration rig;
+    rig.lidar.emplace();
+    rig.imu.emplace();
+    rig.gravity = 1.62;
+    ThreadPool threads(count);
+    SlamSystem system({}, rig, &threads);
+    EXPECT_THROW(
+        {
+          StandInRoom(&system, 7.0, 7.0);
+          system.Finish();
+        },
+        InputError);
+    system.Settle();
+    EXPECT_EQ(system.trajectory().size(), 0U);
+  }
 }
 
 }  // namespace

@@ -9,10 +9,28 @@ const char* SubsystemName(Subsystem subsystem) {
   return kNames[static_cast<size_t>(subsystem)];
 }
 
+const char* SubsystemStateName(SubsystemState state) {
+  switch (state) {
+    case SubsystemState::kAbsent:
+      return "absent";
+    case SubsystemState::kGood:
+      return "good";
+    case SubsystemState::kPoor:
+      return "poor";
+    case SubsystemState::kSilent:
+      return "silent";
+    case SubsystemState::kReturning:
+      return "returning";
+  }
+  return "";
+}
+
 void SupervisorOptions::Check() const {
   for (const double timeout : timeouts) REGOLITH_CHECK(timeout > 0.0, "timeout=", timeout);
   REGOLITH_CHECK(poor_measurements >= 1, "poor_measurements=", poor_measurements);
   REGOLITH_CHECK(return_time >= 0.0, "return_time=", return_time);
+  REGOLITH_CHECK(max_degenerate_directions >= 0 && max_degenerate_directions <= 6,
+                 "max_degenerate_directions=", max_degenerate_directions);
 }
 
 Supervisor::Supervisor(const SupervisorOptions& options) : options_(options) { options.Check(); }

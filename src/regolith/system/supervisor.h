@@ -23,12 +23,15 @@ enum class SubsystemState {
   kSilent,     ///< measured once, and does no more
   kReturning,  ///< measures again, but not for long enough to lead
 };
+/// "absent", "good", "poor", "silent", "returning".
+const char* SubsystemStateName(SubsystemState state);
 
 struct SupervisorOptions {
   /// s without a measurement, in the order of Subsystem, after which one is silent.
   std::array<double, kSubsystems> timeouts = {0.5, 0.5, 0.25, 0.1};
   int poor_measurements = 3;  ///< one after the other, before a subsystem loses the lead
   double return_time = 1.0;   ///< s of good measurements, before one that was lost leads again
+  int max_degenerate_directions = 3;  ///< of six; a scan that leaves more of them open is poor
 
   void Check() const;
 };

@@ -45,6 +45,7 @@ void VioOptions::Check() const {
                                 moving_window,
                                 moving_velocity_sigma,
                                 moving_tilt_sigma,
+                                min_imu_rate,
                                 max_imu_gap,
                                 max_gyro_bias,
                                 max_accelerometer_bias,

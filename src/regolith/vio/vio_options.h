@@ -55,6 +55,7 @@ struct VioOptions {
   double moving_window = 1.5;          ///< s of images from which motion is started
   double moving_velocity_sigma = 0.3;  ///< m/s, of a start in motion
   double moving_tilt_sigma = 0.05;     ///< rad, of gravity's direction at a start in motion
+  double min_imu_rate = 50.0;          ///< Hz; a slower IMU is reported, and nothing starts with it
   double max_imu_gap = 0.1;            ///< s between samples; a longer one is reported
   int min_features = 15;       ///< fewer landmarks in an image: nothing is said of the motion
   double max_gyro_bias = 0.3;  ///< rad/s

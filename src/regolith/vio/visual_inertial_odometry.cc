@@ -164,7 +164,7 @@ void VisualInertialOdometry::TryToStart(bool all) {
   while (!waiting_.empty() && TimeOf(waiting_.front()) < samples_.front().time) {
     waiting_.pop_front();
   }
-  if (waiting_.empty() || StartFromState()) return;
+  if (waiting_.empty() || IsImuSlow() || StartFromState()) return;
   const TimeNs first = TimeOf(waiting_.front());
   const double seconds = SecondsBetween(first, samples_.back().time);
   if (seconds < std::max(options_.initialization_window, expect_start_) && !all) return;
@@ -173,12 +173,26 @@ void VisualInertialOdometry::TryToStart(bool all) {
   if (StartInMotion()) return;
   // Not yet: perhaps the next images tell more.
   waiting_.pop_front();
+  ++unexplained_images_;
+}
+
+/// Of what has come so far, from its first half second on.
+bool VisualInertialOdometry::IsImuSlow() {
+  const double seconds = SecondsBetween(samples_.front().time, samples_.back().time);
+  if (seconds < options_.rest_window) return false;
+  const double rate = static_cast<double>(samples_.size() - 1) / seconds;
+  if (rate >= options_.min_imu_rate) return false;
+  waiting_.clear();
+  start_notice_ = Concatenate("the IMU comes at ", rate, " Hz, below ", options_.min_imu_rate,
+                              " Hz: visual–inertial odometry does not start");
+  return true;
 }
 
 /// The window begins at the first image that waits.
 void VisualInertialOdometry::Begin(const NavState& state, const Eigen::Vector2d& tilt,
                                    const StartUncertainty& sigma) {
   const VioFrame& frame = waiting_.front();
+  start_notice_.clear();
   window_.Start(state, tilt, sigma, frame.stamp);
   window_.Observe(Observations(frame));
   last_frame_ = frame;
@@ -538,6 +552,10 @@ std::vector<std::string> VisualInertialOdometry::Notices() const {
   std::vector<std::string> notices = quality_.Notices();
   if (!is_running()) notices.push_back("visual–inertial odometry never started");
   if (!start_notice_.empty()) notices.push_back(start_notice_);
+  if (unexplained_images_ > 0) {
+    notices.push_back(Concatenate("the first ", unexplained_images_,
+                                  " images did not tell how the camera moves: no poses for them"));
+  }
   for (const auto& [reason, count] : failures_) {
     notices.push_back(
         Concatenate("visual–inertial odometry started anew ", count, " times: ", reason));

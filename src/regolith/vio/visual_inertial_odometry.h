@@ -112,6 +112,7 @@ class VisualInertialOdometry {
   void AnswerStamps(TimeNs until);
   void TryToStart(bool all);
   void Begin(const NavState& state, const Eigen::Vector2d& tilt, const StartUncertainty& sigma);
+  bool IsImuSlow();
   bool StartFromState();
   bool StartAtRest();
   bool StartInMotion();
@@ -149,6 +150,7 @@ class VisualInertialOdometry {
   std::optional<VioFrame> last_frame_;
   std::deque<VioFrame> recent_;  ///< the last ones, as many as a start in motion takes
   Matrix15d covariance_ = Matrix15d::Zero();
+  size_t unexplained_images_ = 0;  ///< before a start in motion
   size_t resets_ = 0;
   size_t keyframes_ = 0;
   int bad_frames_ = 0;  ///< more than good ones

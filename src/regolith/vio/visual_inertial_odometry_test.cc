@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 
 #include "regolith/core/error.h"
@@ -164,6 +166,25 @@ TEST(VisualInertialOdometry, SaysThatGravityIsWrong) {
         for (const ImuSample& sample : recording.imu) odometry.AddImu(sample);
       },
       InputError);
+}
+
+TEST(VisualInertialOdometry, SaysThatTheImuIsTooSlow) {
+  TestSensors sensors = OnTheMoon();
+  const TestRecording recording = Record(RoverMotion(), GroundLandmarks(1), sensors, 3.0, 1);
+  VisualInertialOdometry odometry(VioOptions(), TestRig(sensors), "mono", "");
+  size_t next = 0;
+  for (size_t i = 0; i < recording.imu.size(); i += 8) {  // 25 Hz
+    for (; next < recording.frames.size() && recording.frames[next].stamp <= recording.imu[i].time;
+         ++next) {
+      odometry.AddFrame(recording.frames[next]);
+    }
+    odometry.AddImu(recording.imu[i]);
+  }
+  EXPECT_FALSE(odometry.is_running());
+  const std::vector<std::string> notices = odometry.Notices();
+  EXPECT_TRUE(std::any_of(notices.begin(), notices.end(), [](const std::string& notice) {
+    return notice.find("25 Hz, below 50 Hz") != std::string::npos;
+  }));
 }
 
 }  // namespace
