@@ -95,7 +95,9 @@ class Drive(unittest.TestCase):
         self.listen()
         slam = self.graph.start_slam(rig, publish_sensor_frames="false")
         self.graph.wait_for_output(rover, "driving", 120.0)
+        before = [self.graph.cpu_seconds(process) for process in (rover, slam)]
         wall = self.drive()
+        cpu = [self.graph.cpu_seconds(process) - start for process, start in zip((rover, slam), before, strict=True)]
         time.sleep(1.5)
         trajectory = self.folder / "trajectory.tum"
         rospy.set_param("/regolith/trajectory_file", str(trajectory))
@@ -107,7 +109,7 @@ class Drive(unittest.TestCase):
         take = self.listener.take
         rates = {topic: graph.rate_of(take(topic)) for topic in (
             "/regolith/odom", "/regolith/path", "/regolith/pose", "/camera/mono/image_raw", "/velodyne_points")}
-        print(f"{DRIVE + REST:.0f} s simulated in {wall:.1f} s; {metrics['length_m']:.1f} m, APE RMSE "
+        print(f"{DRIVE + REST:.0f} s simulated in {wall:.1f} s, processor {cpu[0]:.1f} s simulator, {cpu[1]:.1f} s SLAM; {metrics['length_m']:.1f} m, APE RMSE "
               f"{metrics['ape']['rmse']:.3f} m, {metrics['percent_of_distance']:.2f} % of the distance; Hz: {rates}")
         print(self.graph.output("slam"))
         print(self.graph.output("rover"))

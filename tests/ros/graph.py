@@ -105,6 +105,12 @@ class Graph(contextlib.AbstractContextManager):
                 raise AssertionError(f"{process.name} did not say `{word}`: {self.output(process.name)}")
             time.sleep(0.1)
 
+    @staticmethod
+    def cpu_seconds(process):
+        """Of a program that still runs."""
+        fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
     def stop(self, process):
         if process.poll() is None:
             process.send_signal(signal.SIGINT)
