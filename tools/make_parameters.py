@@ -25,12 +25,12 @@ ENTRY = re.compile(r'archive\("(\w+)",\s*(\w+)\.(\w+)\)')
 MEMBER = re.compile(r"^  ((?:const )?[\w:<>, ]+?) (\w+)(?:\s*=\s*[^;]*|\{[^;]*\})?;\s*(?:///<\s*(.*))?$")
 SECTIONS = (
     ("SlamNodeOptions", "regolith_node", "/",
-     "Private parameters of the node, and `settings`: a map laid over the pipeline's settings (below), as `--set` does."),
+     "Private parameters of the node, and `settings`: a map laid over the pipeline's settings (below)."),
     ("SimNodeOptions", "regolith_sim_node", "/",
      "Private parameters of the node, and `settings`: a map laid over the scenario's settings (below)."),
     ("PipelineOptions", "Settings of a pipeline", ".",
-     "For `regolith run --set KEY=VALUE`, `--config FILE`, files in `config/pipelines`, and the node's `settings`. Those "
-     "files change some of these defaults."),
+     "For `regolith run --set KEY=VALUE`, `--config FILE`, files in `config/pipelines`, and the node's `settings`. "
+     "Those files change some of these defaults."),
     ("ScenarioOptions", "Settings of a scenario", ".",
      "For `regolith simulate --config FILE`, files in `config/scenarios`, and the simulator node's `settings`. Those "
      "files change many of these defaults."),

@@ -22,7 +22,8 @@ from rosbags.rosbag1 import Reader, Writer  # noqa: E402  after the check that i
 def cut(bag, out):
     """The first seconds of a bag, without the stereo pair."""
     with Reader(bag) as reader, Writer(out) as writer:
-        connections = [each for each in reader.connections if "/left/" not in each.topic and "/right/" not in each.topic]
+        connections = [each for each in reader.connections
+                       if "/left/" not in each.topic and "/right/" not in each.topic]
         copies = {each.id: writer.add_connection(each.topic, each.msgtype, msgdef=each.msgdef.data, md5sum=each.digest)
                   for each in connections}
         for connection, time, data in reader.messages(connections, stop=reader.start_time + int(SECONDS * 1e9)):
