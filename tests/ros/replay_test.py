@@ -107,6 +107,7 @@ class Replay(unittest.TestCase):
         print(pipeline[2], pipeline[3])
         self.assertGreater(int(pipeline[3]["dropped scans"]) + int(pipeline[3]["dropped images"]), 0)
         self.assertLessEqual(float(pipeline[3]["behind, s"]), 0.1)
+        self.assertEqual(pipeline[3]["time jumps"], "0")
         self.assertIn("faster than they can be worked off", self.graph.output("slam"))
         self.assertEqual(self.graph.stop(slam), 0)
 
@@ -140,6 +141,8 @@ class Replay(unittest.TestCase):
                 print(bag.name, [status[:3] for status in LISTENER.take("/diagnostics")[-1]])
                 self.assertEqual(lidar[1], 2)
                 self.assertIn("no message on /velodyne_points", lidar[2])
+                if not [line for line in self.graph.output("slam").splitlines() if "dead reckoning" in line]:
+                    self.assertIn("of that type there is", self.last_status("imu")[2])
                 self.assertEqual(self.graph.stop(slam), 0)
 
 

@@ -221,17 +221,20 @@ sensor_msgs::Image FeaturesMessage(const CameraFrame& frame, Span<const TrackedF
 }
 
 visualization_msgs::MarkerArray LoopsMessage(const SlamSystem& system, TimeNs time,
-                                             const std::string& map_frame) {
+                                             const SE3& T_imu_base, const std::string& map_frame) {
   visualization_msgs::MarkerArray message;
   const Backend* const backend = system.backend();
   if (backend == nullptr) return message;
+  const auto place = [&](size_t keyframe) {
+    return PointMessage(backend->T_world_body(keyframe) * T_imu_base.translation);
+  };
   visualization_msgs::Marker keyframes =
       EmptyMarker(time, map_frame, "keyframes", visualization_msgs::Marker::SPHERE_LIST);
   keyframes.color.r = 0.2F;
   keyframes.color.g = 0.6F;
   keyframes.color.b = 1.0F;
   for (size_t i = 0; i < backend->keyframes().size(); ++i) {
-    keyframes.points.push_back(PointMessage(backend->T_world_body(i).translation));
+    keyframes.points.push_back(place(i));
   }
   visualization_msgs::Marker loops =
       EmptyMarker(time, map_frame, "loops", visualization_msgs::Marker::LINE_LIST);
@@ -241,7 +244,7 @@ visualization_msgs::MarkerArray LoopsMessage(const SlamSystem& system, TimeNs ti
   for (const LoopRecord& loop : backend->loops()) {
     if (loop.verdict.outcome != LoopOutcome::kAccepted) continue;
     for (const size_t end : {loop.old_keyframe, loop.new_keyframe}) {
-      loops.points.push_back(PointMessage(backend->T_world_body(end).translation));
+      loops.points.push_back(place(end));
     }
   }
   // RViz refuses lists without points.
@@ -250,12 +253,12 @@ visualization_msgs::MarkerArray LoopsMessage(const SlamSystem& system, TimeNs ti
   return message;
 }
 
-DiagnosticStatus TopicDiagnostics(const std::string& node, const SensorTopic& sensor,
+DiagnosticStatus TopicDiagnostics(const std::string& node, const TopicInput& input,
                                   const TopicStatus& status, const EventMerger::Dropped& dropped,
-                                  double silence) {
+                                  double silence, const std::string& others) {
   DiagnosticStatus message;
-  message.name = node + ": " + sensor.sensor;
-  message.hardware_id = sensor.topic;
+  message.name = node + ": " + input.name();
+  message.hardware_id = input.topic();
   const size_t out_of_order = dropped.no_stamp + dropped.repeated + dropped.late + dropped.astray;
   Raise(DiagnosticStatus::OK, Concatenate(status.rate, " Hz"), &message);
   if (out_of_order + status.dropped > 0) {
@@ -265,13 +268,15 @@ DiagnosticStatus TopicDiagnostics(const std::string& node, const SensorTopic& se
   }
   if (!status.age) {
     Raise(DiagnosticStatus::ERROR,
-          "no message on " + sensor.topic + " (" + sensor.types.front() + ") so far", &message);
+          "no message on " + input.topic() + " (" + input.types().front() + ") so far" +
+              (others.empty() ? "" : "; of that type there is" + others),
+          &message);
   } else if (*status.age > silence) {
     Raise(DiagnosticStatus::STALE, Concatenate("silent for ", std::lround(*status.age), " s"),
           &message);
   }
   if (!status.problem.empty()) Raise(DiagnosticStatus::ERROR, status.problem, &message);
-  Add("topic", sensor.topic, &message);
+  Add("topic", input.topic(), &message);
   Add("type", status.type, &message);
   Add("messages", status.messages, &message);
   Add("rate, Hz", status.rate, &message);
@@ -292,6 +297,9 @@ DiagnosticStatus PipelineMessage(const std::string& node, const PipelineDiagnost
   message.hardware_id = state.pipeline;
   if (state.has_pose) {
     Raise(DiagnosticStatus::OK, "led by " + state.leader, &message);
+    if (state.leader == "imu" && !state.at_rest) {
+      Raise(DiagnosticStatus::WARN, "dead reckoning: the IMU goes alone", &message);
+    }
   } else {
     Raise(DiagnosticStatus::WARN, "no pose yet", &message);
   }

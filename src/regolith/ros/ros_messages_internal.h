@@ -55,15 +55,15 @@ sensor_msgs::PointCloud2 CloudMessage(TimeNs time, Span<const MapPoint> points,
 /// The image with a mark at each feature: new ones orange, old ones green.
 sensor_msgs::Image FeaturesMessage(const CameraFrame& frame, Span<const TrackedFeature> features);
 
-/// Keyframes as points, accepted loops as lines.
+/// Keyframes as points, accepted loops as lines, where the base was.
 visualization_msgs::MarkerArray LoopsMessage(const SlamSystem& system, TimeNs time,
-                                             const std::string& map_frame);
+                                             const SE3& T_imu_base, const std::string& map_frame);
 
-diagnostic_msgs::DiagnosticStatus TopicDiagnostics(const std::string& node,
-                                                   const SensorTopic& sensor,
+/// `others`: topics whose messages would fit, where none has come on this one.
+diagnostic_msgs::DiagnosticStatus TopicDiagnostics(const std::string& node, const TopicInput& input,
                                                    const TopicStatus& status,
                                                    const EventMerger::Dropped& dropped,
-                                                   double silence);
+                                                   double silence, const std::string& others);
 
 /// What the node says of the pipeline as a whole.
 struct PipelineDiagnostics {

@@ -70,21 +70,23 @@ TEST(RosMessages, CloudsHaveFourFloatsAPoint) {
 }
 
 TEST(RosMessages, DiagnosticsSayWhatIsMissingAndWhatIsDropped) {
-  const SensorTopic lidar{"lidar", "/points", {"sensor_msgs/PointCloud2"}, {}};
+  const TopicInput lidar({"lidar", "/points", {"sensor_msgs/PointCloud2"}, {}}, RigCalibration());
   TopicStatus status;
-  auto message = TopicDiagnostics("regolith", lidar, status, {}, 2.0);
+  auto message = TopicDiagnostics("regolith", lidar, status, {}, 2.0, " /scans");
   EXPECT_EQ(message.level, DiagnosticStatus::ERROR);
   EXPECT_THAT(message.message, HasSubstr("/points"));
+  EXPECT_THAT(message.message, HasSubstr("there is /scans"));
   status.messages = 100;
   status.age = 0.1;
-  EXPECT_EQ(TopicDiagnostics("regolith", lidar, status, {}, 2.0).level, DiagnosticStatus::OK);
+  EXPECT_EQ(TopicDiagnostics("regolith", lidar, status, {}, 2.0, "").level, DiagnosticStatus::OK);
   EventMerger::Dropped dropped;
   dropped.late = 3;
-  message = TopicDiagnostics("regolith", lidar, status, dropped, 2.0);
+  message = TopicDiagnostics("regolith", lidar, status, dropped, 2.0, "");
   EXPECT_EQ(message.level, DiagnosticStatus::WARN);
   EXPECT_THAT(message.message, HasSubstr("3 of 100"));
   status.age = 4.0;
-  EXPECT_EQ(TopicDiagnostics("regolith", lidar, status, {}, 2.0).level, DiagnosticStatus::STALE);
+  EXPECT_EQ(TopicDiagnostics("regolith", lidar, status, {}, 2.0, "").level,
+            DiagnosticStatus::STALE);
 }
 
 TEST(RosMessages, ANodeThatCannotFollowSaysSo) {
@@ -106,7 +108,7 @@ TEST(RosMessages, AStartWithoutPosesHasNoPathAndNoLoops) {
   const SlamSystem system({}, rig, &threads);
   EXPECT_TRUE(KeyPoses(system, SE3()).empty());
   EXPECT_TRUE(PathMessage({}, "map").poses.empty());
-  EXPECT_TRUE(LoopsMessage(system, 0, "map").markers.empty());
+  EXPECT_TRUE(LoopsMessage(system, 0, SE3(), "map").markers.empty());
 }
 
 TEST(RosMessages, APathHasAStampAPose) {

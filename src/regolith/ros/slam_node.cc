@@ -3,10 +3,17 @@
 //
 // regolith_node: a SLAM pipeline fed by the topics of a rover. It translates messages, nothing else
 // (docs/ros.md).
+#include <algorithm>
+#include <cctype>
 #include <chrono>
+#include <condition_variable>
+#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/ros.h>
@@ -28,7 +35,8 @@ namespace regolith {
 namespace {
 
 constexpr int kWrongInput = 2;
-constexpr uint32_t kMessageQueue = 500;
+constexpr uint32_t kMessageQueue = 5000;
+constexpr size_t kMostUnread = 4;  // scans or images of a topic
 
 double SteadySeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -52,6 +60,8 @@ class SlamNode {
                 outputs_.AfterReset();
               }) {
     for (const SensorTopic& sensor : setup_.topics) inputs_.emplace_back(sensor, setup_.rig);
+    unread_count_.resize(inputs_.size());
+    reader_ = std::thread([this] { ReadLarge(); });
     for (size_t i = 0; i < inputs_.size(); ++i) Subscribe(i);
     Offer("save_map", [this] { return SaveMap(); });
     Offer("save_trajectory", [this] { return SaveTrajectory(); });
@@ -65,27 +75,70 @@ class SlamNode {
                                            [this](const ros::WallTimerEvent&) { Diagnose(); });
   }
 
+  ~SlamNode() {
+    for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
+    {
+      const std::lock_guard<std::mutex> lock(unread_mutex_);
+      stop_ = true;
+    }
+    unread_wake_.notify_all();
+    reader_.join();
+  }
+  SlamNode(const SlamNode&) = delete;
+  SlamNode& operator=(const SlamNode&) = delete;
+
  private:
   void Subscribe(size_t input) {
     for (const std::string& topic : inputs_[input].Topics()) {
       subscribers_.push_back(private_node_.subscribe<topic_tools::ShapeShifter>(
           topic, kMessageQueue, [this, input](const topic_tools::ShapeShifter::ConstPtr& message) {
-            Receive(input, *message);
+            Receive(input, message);
           }));
     }
   }
 
-  void Receive(size_t input, const topic_tools::ShapeShifter& message) {
-    buffer_.resize(message.size());
-    ros::serialization::OStream stream(buffer_.data(), message.size());
+  /// What takes time to read goes to a thread of its own, so that the IMU need not wait.
+  void Receive(size_t input, const topic_tools::ShapeShifter::ConstPtr& message) {
+    const std::string& sensor = inputs_[input].name();
+    if (sensor == "imu" || sensor == "wheels") return Read(input, *message, &buffer_);
+    const std::lock_guard<std::mutex> lock(unread_mutex_);
+    if (unread_count_[input] >= kMostUnread) {
+      const auto oldest = std::find_if(unread_.begin(), unread_.end(),
+                                       [&](const auto& entry) { return entry.first == input; });
+      unread_.erase(oldest);
+      --unread_count_[input];
+      inputs_[input].Skip(SteadySeconds());
+    }
+    unread_.emplace_back(input, message);
+    ++unread_count_[input];
+    unread_wake_.notify_one();
+  }
+
+  void ReadLarge() {
+    std::vector<uint8_t> buffer;
+    std::unique_lock<std::mutex> lock(unread_mutex_);
+    while (true) {
+      unread_wake_.wait(lock, [this] { return stop_ || !unread_.empty(); });
+      if (stop_) return;
+      const auto [input, message] = unread_.front();
+      unread_.pop_front();
+      --unread_count_[input];
+      lock.unlock();
+      Read(input, *message, &buffer);
+      lock.lock();
+    }
+  }
+
+  void Read(size_t input, const topic_tools::ShapeShifter& message, std::vector<uint8_t>* buffer) {
+    buffer->resize(message.size());
+    ros::serialization::OStream stream(buffer->data(), message.size());
     message.write(stream);
-    auto event = inputs_[input].Receive(message.getDataType(), buffer_, SteadySeconds());
+    auto event = inputs_[input].Receive(message.getDataType(), *buffer, SteadySeconds());
     if (!event) return;
     const auto* const sample = std::get_if<ImuSample>(&*event);
-    const bool is_imu = sample != nullptr;
-    const ImuSample imu = is_imu ? *sample : ImuSample();
+    const std::optional<ImuSample> imu = sample != nullptr ? std::optional(*sample) : std::nullopt;
     live_.Push(input, std::move(*event));
-    if (is_imu) PublishPrediction(imu);
+    if (imu) PublishPrediction(*imu);
   }
 
   /// At the IMU's rate and without delay; never back in time.
@@ -139,18 +192,38 @@ class SlamNode {
     pipeline.newly_dropped = dropped - std::exchange(dropped_before_, dropped);
     message.status.push_back(PipelineMessage(node, pipeline));
     for (size_t i = 0; i < inputs_.size(); ++i) {
-      message.status.push_back(TopicDiagnostics(node, inputs_[i].sensor(), inputs_[i].Status(now),
-                                                live_.dropped(i), setup_.options.silence));
+      const TopicStatus status = inputs_[i].Status(now);
+      message.status.push_back(
+          TopicDiagnostics(node, inputs_[i], status, live_.dropped(i), setup_.options.silence,
+                           status.messages == 0 ? OtherTopics(inputs_[i]) : std::string()));
     }
     diagnostics_.publish(message);
     for (const auto& status : message.status) Tell(status);
   }
 
-  /// Whoever watches the terminal alone sees each trouble once.
+  /// Topics with messages that a sensor could use, each with a space before it.
+  static std::string OtherTopics(const TopicInput& input) {
+    ros::master::V_TopicInfo topics;
+    ros::master::getTopics(topics);
+    std::string others;
+    for (const ros::master::TopicInfo& topic : topics) {
+      const auto& types = input.types();
+      const bool fits = std::find(types.begin(), types.end(), topic.datatype) != types.end();
+      const bool is_own = topic.name.rfind(ros::this_node::getName() + "/", 0) == 0;
+      if (fits && !is_own) others += " " + topic.name;
+    }
+    return others;
+  }
+
+  /// Whoever watches the terminal alone sees each trouble once, whatever the numbers in it.
   void Tell(const diagnostic_msgs::DiagnosticStatus& status) {
-    auto& told = told_[status.name];
-    if (status.level == told) return;
-    told = status.level;
+    std::string kind(1, static_cast<char>(status.level));
+    if (status.level != diagnostic_msgs::DiagnosticStatus::OK) {
+      for (const char letter : status.message) {
+        if (std::isdigit(static_cast<unsigned char>(letter)) == 0 && letter != '.') kind += letter;
+      }
+    }
+    if (std::exchange(told_[status.name], kind) == kind) return;
     const std::string line = status.name + ": " + status.message;
     if (status.level == diagnostic_msgs::DiagnosticStatus::OK) {
       LogInfo(line);
@@ -163,15 +236,21 @@ class SlamNode {
   ros::NodeHandle private_node_;
   ThreadPool threads_;
   SlamOutputs outputs_;
-  std::vector<TopicInput> inputs_;
-  std::vector<uint8_t> buffer_;
+  std::deque<TopicInput> inputs_;
+  std::vector<uint8_t> buffer_;  ///< of the callbacks' thread
+  std::mutex unread_mutex_;
+  std::condition_variable unread_wake_;
+  std::deque<std::pair<size_t, topic_tools::ShapeShifter::ConstPtr>> unread_;
+  std::vector<size_t> unread_count_;  ///< by input
+  bool stop_ = false;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   ros::Publisher diagnostics_;
   ros::WallTimer timer_;
-  std::map<std::string, diagnostic_msgs::DiagnosticStatus::_level_type> told_;
+  std::map<std::string, std::string> told_;
   size_t dropped_before_ = 0;
-  LiveSlam live_;  ///< the last, so that its thread ends first
+  LiveSlam live_;
+  std::thread reader_;
 };
 
 int RunNode() {

@@ -124,7 +124,7 @@ void SlamOutputs::Refresh(SlamSystem& system, const FrameReport& report) {
   const SlamNodeOptions& options = setup_.options;
   for (FrameReport& more : system.Settle()) waiting_.push_back(std::move(more));
   key_poses_ = KeyPoses(system, T_imu_base_);
-  const auto loops = LoopsMessage(system, report.stamp, options.map_frame);
+  const auto loops = LoopsMessage(system, report.stamp, T_imu_base_, options.map_frame);
   if (!loops.markers.empty()) loops_.publish(loops);
   if (map_.getNumSubscribers() > 0) {
     MapBuilder thinned({options.map_voxel_size, options.map_max_points});

@@ -26,9 +26,8 @@ std::vector<std::string> TopicInput::Topics() const {
 
 std::optional<SensorEvent> TopicInput::Receive(const std::string& type, MessageBytes bytes,
                                                double now) {
-  ++status_.messages;
-  arrivals_.push_back(now);
-  if (arrivals_.size() > kMostArrivals) arrivals_.erase(arrivals_.begin());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Count(now);
   if (!sensor_.Fits(type)) {
     ++status_.dropped;
     status_.problem = "messages of type " + type + "; expected " + sensor_.types.front() + " for " +
@@ -50,7 +49,21 @@ std::optional<SensorEvent> TopicInput::Receive(const std::string& type, MessageB
   return event;
 }
 
+void TopicInput::Skip(double now) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Count(now);
+  ++status_.dropped;
+  filter_.CountDropped("came faster than they could be read");
+}
+
+void TopicInput::Count(double now) {
+  ++status_.messages;
+  arrivals_.push_back(now);
+  if (arrivals_.size() > kMostArrivals) arrivals_.pop_front();
+}
+
 TopicStatus TopicInput::Status(double now) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
   TopicStatus status = status_;
   const auto recent = std::count_if(arrivals_.begin(), arrivals_.end(),
                                     [&](double arrival) { return arrival > now - kRateWindow; });

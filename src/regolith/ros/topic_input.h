@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +25,7 @@ struct TopicStatus {
 };
 
 /// One sensor's topic as it comes live: reads messages as those of a bag are read, counts those
-/// that cannot be, and never throws for what is in them.
+/// that cannot be, and never throws for what is in them. One thread may receive while others ask.
 class TopicInput {
  public:
   TopicInput(SensorTopic sensor, const RigCalibration& rig);
@@ -34,18 +36,24 @@ class TopicInput {
   /// `now` in s, of a clock that never runs backward.
   std::optional<SensorEvent> Receive(const std::string& type, MessageBytes bytes, double now);
 
-  const SensorTopic& sensor() const { return sensor_; }
+  /// A message that came faster than the ones before it could be read.
+  void Skip(double now);
+
+  const std::string& name() const { return sensor_.sensor; }
+  const std::string& topic() const { return sensor_.topic; }
+  const std::vector<std::string>& types() const { return sensor_.types; }
   TopicStatus Status(double now) const;
 
  private:
-  std::string Name() const { return sensor_.sensor + " (" + sensor_.topic + ")"; }
+  void Count(double now);
 
-  SensorTopic sensor_;
+  SensorTopic sensor_;  ///< but for the type that is found, as it was given
   RigCalibration rig_;
+  mutable std::mutex mutex_;
   TopicFilter filter_;
   MessageDecoder decode_;
   TopicStatus status_;
-  std::vector<double> arrivals_;  ///< s, of the last ones
+  std::deque<double> arrivals_;  ///< s, of the last ones
 };
 
 }  // namespace regolith

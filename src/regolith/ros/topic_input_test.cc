@@ -144,7 +144,7 @@ TEST_F(TopicInputTest, ImuValuesThatAreNoNumbersAreDropped) {
 TEST_F(TopicInputTest, BytesThatEndEarlyAreDropped) {
   for (const char* const sensor : {"imu", "lidar", "mono", "wheels"}) {
     TopicInput input = Input(sensor);
-    const std::string type = input.sensor().types.front();
+    const std::string type = input.types().front();
     for (const size_t size : {size_t{0}, size_t{3}, size_t{16}, size_t{40}}) {
       EXPECT_FALSE(input.Receive(type, std::vector<uint8_t>(size, 0xff), 1.0));
     }
@@ -188,6 +188,14 @@ TEST_F(TopicInputTest, SaysHowOftenAndWhen) {
   }
   EXPECT_NEAR(input.Status(3.0).rate, 100.0, 1.0);
   EXPECT_NEAR(*input.Status(5.0).age, 2.01, 1e-9);
+}
+
+TEST_F(TopicInputTest, SkippedMessagesAreDroppedAndSaid) {
+  TopicInput input = Input("lidar");
+  input.Skip(1.0);
+  EXPECT_EQ(input.Status(1.0).messages, 1U);
+  EXPECT_EQ(input.Status(1.0).dropped, 1U);
+  EXPECT_THAT(input.Status(1.0).notices, testing::Contains(HasSubstr("faster")));
 }
 
 TEST_F(TopicInputTest, ListensToCompressedImagesToo) {

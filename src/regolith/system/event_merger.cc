@@ -25,15 +25,21 @@ bool EventMerger::Add(size_t topic, SensorEvent event) {
     ++topics_.at(topic).dropped.no_stamp;
     return false;
   }
-  if (newest_) {
-    const double ahead = SecondsBetween(*newest_, stamp);
-    if (ahead > options_.max_ahead || ahead < -options_.max_behind) {
-      return AddAstray(topic, std::move(event));
-    }
+  if (newest_ && IsAstray(topics_.at(topic).last, stamp)) {
+    return AddAstray(topic, std::move(event));
   }
   DropAstray();
   Insert(topic, std::move(event));
   return false;
+}
+
+/// A topic that goes on from its own last measurement is right, however far the others have fallen
+/// behind or gone ahead.
+bool EventMerger::IsAstray(const std::optional<TimeNs>& last, TimeNs stamp) const {
+  const double ahead = SecondsBetween(*newest_, stamp);
+  if (ahead < -options_.max_behind) return last && stamp <= *last;
+  return ahead > options_.max_ahead &&
+         !(last && SecondsBetween(*last, stamp) <= options_.max_ahead);
 }
 
 /// One wrong clock among others never gets so far: their measurements come in between.

@@ -47,6 +47,7 @@ class EventMerger {
   };
   using Key = std::pair<TimeNs, size_t>;  ///< stamp, topic
 
+  bool IsAstray(const std::optional<TimeNs>& last, TimeNs stamp) const;
   bool AddAstray(size_t topic, SensorEvent event);
   void DropAstray();
   void Insert(size_t topic, SensorEvent event);

@@ -104,6 +104,18 @@ TEST(EventMerger, AClockInTheFutureDoesNotTakeTheOthersAlong) {
   EXPECT_GT(events.size(), 180U);
 }
 
+TEST(EventMerger, ATopicThatLagsFarBehindIsLateAndNoOtherTime) {
+  EventMerger merger(2, {});
+  Drive(&merger, kStart, kStart + 1.0);
+  for (int i = 0; i < 900; ++i) EXPECT_FALSE(merger.Add(kImu, Imu(kStart + 1.0 + 0.01 * i)));
+  merger.TakeReady();
+  for (int i = 0; i < 50; ++i) EXPECT_FALSE(merger.Add(kLidar, Scan(kStart + 1.0 + 0.1 * i)));
+  EXPECT_EQ(merger.dropped(kLidar).late, 50U);
+  EXPECT_EQ(merger.dropped(kLidar).astray, 0U);
+  for (int i = 50; i < 100; ++i) merger.Add(kLidar, Scan(kStart + 1.0 + 0.1 * i));
+  EXPECT_LT(merger.dropped(kLidar).late, 99U);
+}
+
 TEST(EventMerger, ABagThatBeginsAgainIsANewRunWithoutLoss) {
   EventMerger merger(2, {});
   Drive(&merger, kStart, kStart + 30.0);
