@@ -22,6 +22,7 @@ ScenarioOptions Plain() {
   options.terrain.craters.density = 0.0;
   options.terrain.rocks.law = RockLaw::kNone;
   options.drive.wanted_slope_deg = 0.0;
+  options.drive.length = 15.0;
   options.camera.width = 64;
   options.camera.height = 48;
   options.lidar.firings = 60;
@@ -85,8 +86,10 @@ TEST_F(LiveSimulatorTest, AllSensorsMeasureAtTheirRatesInOrderOfBeingThere) {
   EXPECT_EQ(LiveSimulator::Rig(Plain(), "mono").cameras.size(), 1U);
 }
 
-TEST_F(LiveSimulatorTest, StandsUntilItIsToldAndThenFollows) {
-  Make(Plain());
+TEST_F(LiveSimulatorTest, StandsUntilItIsToldThenFollowsAndStopsAtItsBorder) {
+  ScenarioOptions options = Plain();
+  options.lidar.rate = 2.0;
+  Make(options);
   EXPECT_EQ(Drive(0.0, 0.0, 1.0).translation.norm(), 0.0);
   const SE3 straight = Drive(0.5, 0.0, 5.0);
   // Half a second of latency and a second of acceleration are missing.
@@ -101,19 +104,11 @@ TEST_F(LiveSimulatorTest, StandsUntilItIsToldAndThenFollows) {
   EXPECT_LT(turn.translation.norm(), 0.1);
   Drive(0.0, 0.0, 3.0);
   EXPECT_LT(Drive(-0.4, 0.0, 4.0).translation.x(), -0.9);
-}
-
-TEST_F(LiveSimulatorTest, CommandsThatAreNoneStopIt) {
-  Make(Plain());
-  Drive(0.5, 0.0, 2.0);
+  // Commands that are none, or too much.
   Drive(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 3.0);
   EXPECT_LT(Drive(0.0, 0.0, 1.0).translation.norm(), 1e-3);
   EXPECT_LT(Drive(50.0, 0.0, 3.0).translation.norm(), 3.0 * LiveDriveLimits::kSpeed);
-}
-
-TEST_F(LiveSimulatorTest, StopsAtTheBorderOfItsArenaAndComesBack) {
-  Make(Plain());
-  Drive(0.8, 0.0, 60.0);
+  Drive(0.8, 0.0, 55.0);
   EXPECT_FALSE(simulator_->obstacle().empty());
   EXPECT_LT(Drive(0.8, 0.0, 1.0).translation.norm(), 1e-3);
   EXPECT_LT(Drive(-0.8, 0.0, 3.0).translation.x(), -0.5);
@@ -124,16 +119,17 @@ TEST_F(LiveSimulatorTest, StopsBeforeRocks) {
   ScenarioOptions options = Plain();
   options.terrain.rocks.law = RockLaw::kPower;
   options.terrain.rocks.density = 0.3;
+  options.lidar.rate = 2.0;
   Make(options);
-  Drive(0.8, 0.0, 60.0);
+  Drive(0.8, 0.0, 40.0);
   EXPECT_EQ(simulator_->obstacle(), "a rock");
 }
 
 TEST_F(LiveSimulatorTest, TheSameCommandsGiveTheSameMeasurements) {
   Make(Plain());
-  const SE3 first = Drive(0.5, 0.1, 3.0);
+  const SE3 first = Drive(0.5, 0.1, 1.5);
   Make(Plain());
-  const SE3 second = Drive(0.5, 0.1, 3.0);
+  const SE3 second = Drive(0.5, 0.1, 1.5);
   EXPECT_EQ(first.translation, second.translation);
 }
 
