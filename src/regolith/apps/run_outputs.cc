@@ -167,6 +167,7 @@ nlohmann::ordered_json SummaryOf(const RunSetup& setup, const SlamSystem& system
                             : static_cast<double>(system.trajectory().size()) /
                                   static_cast<double>(system.stamps_seen());
   summary["resets"] = system.resets();
+  summary["visual_restarts"] = system.visual_restarts();
   summary["distance_m"] = system.trajectory().Length();
   if (evaluation) {
     summary["ape_rmse_m"] = evaluation->ape.rmse;

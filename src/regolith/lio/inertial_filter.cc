@@ -27,6 +27,8 @@ constexpr double kFixedSigma = 1e-4;
 // A body that moves unseen, 1 σ: rovers neither turn nor accelerate harder.
 constexpr double kBlindRate = 0.5;          // rad/s
 constexpr double kBlindAcceleration = 1.0;  // m/s²
+// Poses farther apart say nothing of the rate.
+constexpr double kRateMemory = 0.5;  // s
 
 template <int kAt>
 auto Diagonal(InertialFilter::Covariance& covariance) {
@@ -97,14 +99,26 @@ void InertialFilter::Propagate(const ImuSample& from, const ImuSample& to) {
   state_ = regolith::Propagate(state_, from, to, gravity_world_);
 }
 
+Eigen::Vector3d InertialFilter::BlindRate() const {
+  const bool is_old = SecondsBetween(last_pose_time_, state_.time) > kRateMemory;
+  return is_old ? Eigen::Vector3d::Zero() : rate_;
+}
+
 void InertialFilter::PropagateBlindly(TimeNs time) {
   const double dt = SecondsBetween(state_.time, time);
   if (dt <= 0.0) return;
+  const Eigen::Quaterniond turn = ExpSo3(BlindRate() * dt);
+  const Eigen::Quaterniond before = state_.T_world_imu.rotation;
   state_.T_world_imu.translation += state_.v_world_imu * dt;
+  state_.T_world_imu.rotation = (before * turn).normalized();
+  state_.v_world_imu = state_.T_world_imu.rotation * (before.conjugate() * state_.v_world_imu);
   state_.time = time;
   Covariance transition = Covariance::Identity();
+  transition.block<3, 3>(kRotation, kRotation) = turn.conjugate().toRotationMatrix();
   transition.block<3, 3>(kPosition, kVelocity) = Eigen::Matrix3d::Identity() * dt;
   covariance_ = (transition * covariance_ * transition.transpose()).eval();
+  covariance_.block<kGyroBias, kSize - kGyroBias>(0, kGyroBias).setZero();
+  covariance_.block<kSize - kGyroBias, kGyroBias>(kGyroBias, 0).setZero();
   Diagonal<kRotation>(covariance_).array() += std::pow(kBlindRate * dt, 2);
   Diagonal<kVelocity>(covariance_).array() += std::pow(kBlindAcceleration * dt, 2);
   Diagonal<kPosition>(covariance_).array() += std::pow(0.5 * kBlindAcceleration * dt * dt, 2);
@@ -119,6 +133,13 @@ void InertialFilter::AbsorbPose(const SE3& T_world_imu, const Matrix6d& covarian
   Covariance updated = covariance_ - gain * lost * gain.transpose();
   covariance_ = 0.5 * (updated + updated.transpose());
   Correct(gain * Minus(T_world_imu, state_.T_world_imu));
+  const double seconds = SecondsBetween(last_pose_time_, state_.time);
+  const Eigen::Quaterniond& rotation = state_.T_world_imu.rotation;
+  rate_ = seconds > 0.0 && seconds < kRateMemory
+              ? Eigen::Vector3d(LogSo3(last_rotation_.conjugate() * rotation) / seconds)
+              : Eigen::Vector3d::Zero();
+  last_rotation_ = rotation;
+  last_pose_time_ = state_.time;
 }
 
 void InertialFilter::AbsorbWheels(const WheelOdometry& wheels, const SE3& T_imu_base,

@@ -37,9 +37,12 @@ class InertialFilter {
   /// Moves the state from one sample to the next.
   void Propagate(const ImuSample& from, const ImuSample& to);
 
-  /// Moves the state over time without samples (a gap): no rotation, no acceleration, growing
-  /// doubt.
+  /// Moves the state over time without samples (a gap): it turns on at the rate between the last
+  /// two poses absorbed, as long as these are not old, and keeps its speed, with growing doubt.
+  /// What the pose then learns says nothing of biases, gravity and slip any more.
   void PropagateBlindly(TimeNs time);
+  /// Of PropagateBlindly, rad/s.
+  Eigen::Vector3d BlindRate() const;
 
   /// Takes in a pose that was estimated with this filter's pose as its prior: its mean and
   /// covariance replace the prior's, and everything that is correlated with the pose follows.
@@ -63,6 +66,9 @@ class InertialFilter {
   void Correct(const Eigen::Matrix<double, kSize, 1>& error);
 
   NavState state_;
+  TimeNs last_pose_time_ = 0;  ///< of the last pose absorbed, with …
+  Eigen::Quaterniond last_rotation_ = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  ///< … the turn from the one before, rad/s
   Eigen::Vector3d gravity_world_;
   double wheel_slip_ = 0.0;
   Covariance covariance_ = Covariance::Zero();

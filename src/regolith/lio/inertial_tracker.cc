@@ -77,14 +77,17 @@ void InertialTracker::Step(const ImuSample& from, const ImuSample& to) {
   const bool in_gap = std::any_of(gaps_.begin(), gaps_.end(), [&](const Gap& gap) {
     return from.time >= gap.begin && to.time <= gap.end;
   });
-  if (in_gap || from.time >= samples_.back().time) {
+  const bool is_blind = in_gap || from.time >= samples_.back().time;
+  if (is_blind) {
     filter_->PropagateBlindly(to.time);
   } else {
     filter_->Propagate(from, to);
   }
+  const Eigen::Vector3d rate =
+      is_blind ? filter_->BlindRate() + filter_->state().gyro_bias : to.angular_velocity;
   for (; !wheels_.empty() && wheels_.front().time <= to.time; wheels_.pop_front()) {
     if (wheels_.front().time <= from.time) continue;
-    filter_->AbsorbWheels(wheels_.front(), rig_.wheels->T_imu_base, to.angular_velocity);
+    filter_->AbsorbWheels(wheels_.front(), rig_.wheels->T_imu_base, rate);
   }
   for (; !velocities_.empty() && velocities_.front().time <= to.time; velocities_.pop_front()) {
     if (velocities_.front().time <= from.time) continue;

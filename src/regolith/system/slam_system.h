@@ -88,8 +88,10 @@ class SlamSystem {
   /// Stamps at which a pose is expected: scans (and in a time without them, moments at their
   /// rate), or images where no scan came.
   size_t stamps_seen() const;
-  /// New starts of an odometry that had lost its way.
-  size_t resets() const { return visual_ ? visual_->resets() : 0; }
+  /// New starts of the odometry that the trajectory is made of, had it lost its way.
+  size_t resets() const { return lidar_ ? 0 : visual_->resets(); }
+  /// The same of visual odometry, whether it leads or helps.
+  size_t visual_restarts() const { return visual_ ? visual_->resets() : 0; }
   KeyframeCounts keyframe_counts() const;
   /// Keyframes and loops; null where the pipeline has no back end, or one inside its odometry.
   const Backend* backend() const { return backend_ ? &backend_->backend() : nullptr; }

@@ -65,11 +65,15 @@ std::vector<std::pair<double*, int>> SlidingWindow::FixedBlocks() {
   return blocks;
 }
 
-void SlidingWindow::Start(const NavState& state, const Eigen::Vector2d& tilt,
-                          const StartUncertainty& sigma, TimeNs stamp) {
+void SlidingWindow::Stop() {
   for (const auto& left : frames_) history_.Move(left->record, FromPoseBlock(left->pose.data()));
   frames_.clear();
   landmarks_.clear();
+}
+
+void SlidingWindow::Start(const NavState& state, const Eigen::Vector2d& tilt,
+                          const StartUncertainty& sigma, TimeNs stamp) {
+  Stop();
   frames_.push_back(std::make_unique<WindowFrame>());
   WindowFrame& frame = newest();
   frame.stamp = stamp;

@@ -57,6 +57,8 @@ class SlidingWindow {
   SlidingWindow(const SlidingWindow&) = delete;
   SlidingWindow& operator=(const SlidingWindow&) = delete;
 
+  /// Forgets everything but the history; Start begins anew.
+  void Stop();
   /// The first frame, a keyframe; everything before is forgotten. `tilt`: direction of gravity.
   void Start(const NavState& state, const Eigen::Vector2d& tilt, const StartUncertainty& sigma,
              TimeNs stamp);

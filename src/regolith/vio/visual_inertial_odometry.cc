@@ -19,6 +19,7 @@ namespace {
 
 /// Without images a state is made this often, so that wheels count and motion stays short.
 constexpr double kBlindInterval = 1.0;        // s
+constexpr double kLongestBlindTime = 1.0;     // s without an IMU
 constexpr double kKeyframeInterval = 3.0;     // s, of motion between keyframes at most
 constexpr double kFeaturelessInterval = 0.5;  // s, between keyframes that see little
 constexpr double kWheelsLate = 0.1;           // s, that an image waits for wheels
@@ -93,6 +94,11 @@ VisualInertialOdometry::VisualInertialOdometry(const VioOptions& options, const 
 std::vector<VioEstimate> VisualInertialOdometry::AddImu(const ImuSample& sample) {
   if (!samples_.empty() && sample.time <= samples_.back().time) return {};
   quality_.Add(sample);
+  const bool is_helped = expect_start_ > 0.0;
+  if (is_helped && is_running() &&
+      SecondsBetween(samples_.back().time, sample.time) > kLongestBlindTime) {
+    StopAtGap();
+  }
   samples_.push_back(sample);
   std::vector<VioEstimate> estimates = ProcessReady(false);
   if (is_running() && waiting_.empty() &&
@@ -103,6 +109,19 @@ std::vector<VioEstimate> VisualInertialOdometry::AddImu(const ImuSample& sample)
     estimates.back().has_image = false;
   }
   return estimates;
+}
+
+/// What images alone would make of a long time without an IMU is worse than what another odometry
+/// knows at its end: the next start is made from that.
+void VisualInertialOdometry::StopAtGap() {
+  ++resets_;
+  ++failures_["long IMU gap"];
+  window_.Stop();
+  samples_.clear();
+  start_.reset();
+  last_frame_.reset();
+  recent_.clear();
+  bad_frames_ = 0;
 }
 
 void VisualInertialOdometry::AddWheels(const WheelOdometry& odometry) {
@@ -207,7 +226,7 @@ bool VisualInertialOdometry::FeaturesStand(const VioFrame& first, const VioFrame
 
 /// At the first image after the state that is known, since another odometry is ahead of images.
 bool VisualInertialOdometry::StartFromState() {
-  if (!start_) return false;
+  if (!start_ || start_->first.time < samples_.front().time) return false;
   const auto& [known, gravity_world] = *start_;
   const auto frame = std::find_if(waiting_.begin(), waiting_.end(), [&](const VioFrame& waiting) {
     return TimeOf(waiting) > start_->first.time;

@@ -109,6 +109,7 @@ class VisualInertialOdometry {
  private:
   std::vector<VioEstimate> ProcessReady(bool all);
   bool HasReached(TimeNs time) const;
+  void StopAtGap();
   void AnswerStamps(TimeNs until);
   void TryToStart(bool all);
   void Begin(const NavState& state, const Eigen::Vector2d& tilt, const StartUncertainty& sigma);
