@@ -3,9 +3,8 @@
 #include "regolith/ros/topic_input.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
-
-#include "regolith/core/error.h"
 
 namespace regolith {
 namespace {
@@ -42,7 +41,8 @@ std::optional<SensorEvent> TopicInput::Receive(const std::string& type, MessageB
   try {
     event = decode_(bytes, filter_);
     status_.problem.clear();
-  } catch (const InputError& error) {
+  } catch (const std::exception& error) {
+    // Of whatever library: a message is no reason to end.
     status_.problem = error.what();
   }
   if (!event) ++status_.dropped;
