@@ -35,6 +35,37 @@ foreach(library rosbag_storage roscpp_serialization rostime cpp_common roslz4 co
   target_link_libraries(regolith_rosbag INTERFACE ${REGOLITH_LIBRARY_${library}})
 endforeach()
 
+# The ROS 1 nodes are built where ROS is found (scripts/setup.sh ros).
+set(REGOLITH_ROS AUTO CACHE STRING "The ROS 1 nodes: ON, OFF, or AUTO where ROS is found")
+set(REGOLITH_ROS_FOUND FALSE)
+if(NOT REGOLITH_ROS STREQUAL "OFF")
+  set(REGOLITH_ROS_FOUND TRUE)
+  add_library(regolith_ros_client INTERFACE)
+  target_link_libraries(regolith_ros_client INTERFACE regolith_rosbag)
+  foreach(library roscpp rosconsole topic_tools xmlrpcpp)
+    find_library(REGOLITH_LIBRARY_${library} ${library})
+    if(REGOLITH_LIBRARY_${library})
+      target_link_libraries(regolith_ros_client INTERFACE ${REGOLITH_LIBRARY_${library}})
+    else()
+      set(REGOLITH_ROS_FOUND FALSE)
+    endif()
+  endforeach()
+  foreach(header ros/ros.h topic_tools/shape_shifter.h tf2_msgs/TFMessage.h std_srvs/Trigger.h
+                 diagnostic_msgs/DiagnosticArray.h visualization_msgs/MarkerArray.h rosgraph_msgs/Clock.h)
+    string(MAKE_C_IDENTIFIER ${header} name)
+    find_path(REGOLITH_HEADER_${name} ${header})
+    if(NOT REGOLITH_HEADER_${name})
+      set(REGOLITH_ROS_FOUND FALSE)
+    endif()
+  endforeach()
+  if(NOT REGOLITH_ROS_FOUND)
+    if(REGOLITH_ROS STREQUAL "ON")
+      message(FATAL_ERROR "REGOLITH_ROS is ON, but ROS 1 was not found; run scripts/setup.sh ros")
+    endif()
+    message(STATUS "ROS 1 was not found: its nodes are not built (scripts/setup.sh ros installs it)")
+  endif()
+endif()
+
 # Debian's Ceres was compiled without AVX: its Eigen aligns to 16 bytes, ours to 32. The shared library keeps its own Eigen
 # to itself; the static one, which the CMake package names, would share inline functions with ours.
 find_library(REGOLITH_CERES_SHARED ceres REQUIRED)

@@ -7,9 +7,10 @@
 set -euo pipefail
 
 usage() {
-  echo "usage: scripts/setup.sh run|test"
+  echo "usage: scripts/setup.sh run|test|ros"
   echo "  run   what building and running the program needs"
   echo "  test  the same, and what the tests and checks need"
+  echo "  ros   what \`run\` does, and ROS 1 for the live nodes (docs/ros.md)"
 }
 
 fail() {
@@ -73,6 +74,10 @@ run)
 test)
   install_packages "$root/scripts/packages_run.txt" "$root/scripts/packages_test.txt"
   install_python_tools "$root/scripts/requirements_run.txt" "$root/scripts/requirements_test.txt"
+  ;;
+ros)
+  install_packages "$root/scripts/packages_run.txt" "$root/scripts/packages_ros.txt"
+  install_python_tools "$root/scripts/requirements_run.txt"
   ;;
 -h | --help)
   usage

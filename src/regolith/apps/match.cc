@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <thread>
 
-#include "regolith/apps/feature_setup.h"
 #include "regolith/apps/match_outputs.h"
 #include "regolith/apps/output_folder.h"
 #include "regolith/apps/progress.h"
+#include "regolith/config/feature_setup.h"
 #include "regolith/config/features_config.h"
 #include "regolith/core/check.h"
 #include "regolith/core/error.h"

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "regolith/apps/child_process.h"
-#include "regolith/apps/install_paths.h"
+#include "regolith/config/install_paths.h"
 #include "regolith/core/check.h"
 #include "regolith/core/log.h"
 #include "regolith/core/stop.h"

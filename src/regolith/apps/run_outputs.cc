@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "regolith/apps/install_paths.h"
 #include "regolith/apps/run_report.h"
+#include "regolith/config/install_paths.h"
 #include "regolith/config/pipeline_config.h"
 #include "regolith/config/rig_config.h"
 #include "regolith/core/log.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "regolith/apps/feature_setup.h"
-#include "regolith/apps/install_paths.h"
+#include "regolith/config/feature_setup.h"
+#include "regolith/config/install_paths.h"
 #include "regolith/config/pipeline_config.h"
 #include "regolith/config/rig_config.h"
 #include "regolith/core/check.h"

@@ -9,9 +9,9 @@
 
 #include "regolith/apps/background_writer.h"
 #include "regolith/apps/image_pairs.h"
-#include "regolith/apps/install_paths.h"
 #include "regolith/apps/output_folder.h"
 #include "regolith/apps/progress.h"
+#include "regolith/config/install_paths.h"
 #include "regolith/config/rig_config.h"
 #include "regolith/config/scenario_config.h"
 #include "regolith/core/check.h"
@@ -33,7 +33,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kInterrupted = 130;
-constexpr double kDraftSpacing = 0.04;  // m
 constexpr double kDegreesPerRadian = 57.29577951308232;
 
 ScenarioOptions ResolveScenario(const SimulateArguments& arguments) {
@@ -46,10 +45,7 @@ ScenarioOptions ResolveScenario(const SimulateArguments& arguments) {
   ScenarioOptions options = LoadScenario(document);
   if (arguments.duration) options.duration = *arguments.duration;
   if (arguments.seed) options.seed = *arguments.seed;
-  if (arguments.quality == "draft") {
-    options.mesh.spacing = kDraftSpacing;
-    options.mesh.interreflection = false;
-  }
+  if (arguments.quality == "draft") options.MakeDraft();
   options.Check();
   return options;
 }

@@ -13,8 +13,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "regolith/apps/install_paths.h"
 #include "regolith/apps/output_folder.h"
+#include "regolith/config/install_paths.h"
 #include "regolith/config/scenario_config.h"
 #include "regolith/core/check.h"
 #include "regolith/core/error.h"

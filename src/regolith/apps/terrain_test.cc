@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "regolith/apps/install_paths.h"
+#include "regolith/config/install_paths.h"
 #include "regolith/config/scenario_config.h"
 #include "regolith/core/random.h"
 #include "regolith/io/raster.h"

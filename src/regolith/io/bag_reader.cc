@@ -125,7 +125,36 @@ class RosBagReader : public BagReader {
   TimeNs last_ = 0;
 };
 
+/// As a shell takes it.
+std::string Quoted(const std::string& path) {
+  const bool is_plain = path.find_first_not_of(
+                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                            "_-+=:,./@%") == std::string::npos;
+  if (is_plain && path[0] != '-') return path;
+  std::string quoted = "'";
+  for (const char letter : path)
+    quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+  return quoted + "'";
+}
+
 }  // namespace
+
+void RefuseRos2(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::path source(path);
+  // A file of a recording's folder goes with the others in it.
+  const fs::path folder = fs::absolute(source, error).parent_path();
+  if (!fs::is_directory(source, error) && fs::exists(folder / "metadata.yaml", error)) {
+    source = folder;
+  }
+  fs::path bag = fs::absolute(source, error).lexically_normal();
+  if (!bag.has_filename()) bag = bag.parent_path();
+  bag.replace_extension(".bag");
+  throw InputError(path, "is a ROS 2 recording; convert it once with `rosbags-convert --src " +
+                             Quoted(source.string()) + " --dst " + Quoted(bag.string()) +
+                             "` (pip install rosbags) and give the .bag");
+}
 
 void CheckBagFile(const std::string& path) {
   std::error_code error;
@@ -138,9 +167,7 @@ void CheckBagFile(const std::string& path) {
   std::fclose(file);
   if (magic.empty()) throw InputError(path, "is empty");
   if (magic.rfind("SQLite format 3", 0) == 0 || magic.rfind("\x89MCAP", 0) == 0) {
-    throw InputError(path,
-                     "is of a ROS 2 bag; convert it with `rosbags-convert --src FOLDER --dst "
-                     "NAME.bag` (pip install rosbags)");
+    RefuseRos2(path);
   }
   if (magic.rfind("#ROSBAG V", 0) != 0) throw InputError(path, "is not a ROS bag");
 }

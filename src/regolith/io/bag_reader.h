@@ -14,6 +14,10 @@ namespace regolith {
 /// else.
 void CheckBagFile(const std::string& path);
 
+/// Throws InputError with the command that makes a ROS 1 bag of a ROS 2 recording: a folder, or an
+/// .mcap or .db3 file.
+[[noreturn]] void RefuseRos2(const std::string& path);
+
 struct BagTopic {
   std::string name;
   std::string type;  ///< such as "sensor_msgs/Imu"

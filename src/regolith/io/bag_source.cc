@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <deque>
-#include <functional>
 #include <limits>
 #include <utility>
 
 #include "regolith/core/check.h"
 #include "regolith/core/error.h"
-#include "regolith/io/point_cloud.h"
+#include "regolith/io/message_decoder.h"
 #include "regolith/io/ros1_messages.h"
 #include "regolith/io/topic_filter.h"
 
@@ -21,82 +20,16 @@ namespace {
 /// bag is read this far ahead.
 constexpr double kDelayVariation = 0.5;  // s
 
-using Parser = std::function<std::optional<SensorEvent>(MessageBytes, TopicFilter&)>;
-
 /// One topic that is being read.
 struct Stream {
   std::unique_ptr<BagCursor> cursor;
-  Parser parse;
+  MessageDecoder decode;
   TopicFilter filter;
   std::deque<SensorEvent> waiting;
   double time_offset = 0.0;  ///< s, added to its stamps
   /// Record time minus time of the last message; tells when the next one is to be expected.
   TimeNs delay = 0;
 };
-
-template <typename Event>
-std::optional<SensorEvent> Unpack(MessageResult<Event> result, TopicFilter& filter) {
-  if (!result.value) {
-    filter.CountDropped(result.problem);
-    return std::nullopt;
-  }
-  return SensorEvent(std::move(*result.value));
-}
-
-std::optional<SensorEvent> UnpackScan(PointCloudResult result, const LidarCalibration& lidar,
-                                      TopicFilter& filter) {
-  if (!result.scan) {
-    filter.CountDropped(result.problem);
-    return std::nullopt;
-  }
-  filter.CountPoints(result.facts.invalid_points);
-  if (result.facts.ring_derived) {
-    filter.Note(Concatenate("no field 'ring': derived from elevation, ", lidar.rings,
-                            " rings between ", lidar.lowest_elevation_deg, " and ",
-                            lidar.highest_elevation_deg, " degrees"));
-  }
-  if (result.facts.time_derived) {
-    filter.Note(Concatenate("no usable field 'time': derived from azimuth, ", lidar.period,
-                            " s a turn from the stamp on"));
-  }
-  if (result.facts.time_missing) {
-    filter.Note("no usable field 'time' and points not in firing order: scans are not deskewed");
-  }
-  if (result.facts.intensity_missing) filter.Note("no field 'intensity': taken as 0");
-  result.scan->stamp = AddSeconds(result.scan->stamp, lidar.time_offset);
-  return SensorEvent(std::move(*result.scan));
-}
-
-Parser CameraParser(const BagSensor& sensor, const CameraCalibration& camera,
-                    const std::string& where) {
-  const bool compressed = sensor.type == "sensor_msgs/CompressedImage";
-  return [=](MessageBytes bytes, TopicFilter& filter) -> std::optional<SensorEvent> {
-    auto result = compressed ? ParseCompressedImage(bytes) : ParseImage(bytes);
-    if (result.value) {
-      result.value->camera = sensor.sensor;
-      result.value->time = AddSeconds(result.value->time, camera.time_offset);
-      CheckImageSize(where, *result.value, camera);
-    }
-    return Unpack(std::move(result), filter);
-  };
-}
-
-Parser MakeParser(const BagSensor& sensor, const RigCalibration& rig, const std::string& where) {
-  if (sensor.sensor == "imu") {
-    return [](MessageBytes bytes, TopicFilter& filter) { return Unpack(ParseImu(bytes), filter); };
-  }
-  if (sensor.sensor == "wheels") {
-    return [](MessageBytes bytes, TopicFilter& filter) {
-      return Unpack(ParseOdometry(bytes), filter);
-    };
-  }
-  if (sensor.sensor == "lidar") {
-    return [lidar = *rig.lidar](MessageBytes bytes, TopicFilter& filter) {
-      return UnpackScan(ParsePointCloud(bytes, lidar), lidar, filter);
-    };
-  }
-  return CameraParser(sensor, rig.cameras.at(sensor.sensor), where);
-}
 
 bool IsWanted(const std::string& sensor, const ReadOptions& options) {
   if (sensor == "imu") return options.imu;
@@ -106,7 +39,7 @@ bool IsWanted(const std::string& sensor, const ReadOptions& options) {
 }
 
 /// Name of the sensor's topic in the bag; an image's may be compressed.
-auto FindName(const std::vector<BagTopic>& topics, const BagSensor& sensor) {
+auto FindName(const std::vector<BagTopic>& topics, const SensorTopic& sensor) {
   const auto find = [&](const std::string& name) {
     return std::find_if(topics.begin(), topics.end(),
                         [&](const BagTopic& topic) { return topic.name == name; });
@@ -120,7 +53,7 @@ class BagSource : public SensorSource {
   BagSource(const std::string& path, const RigCalibration& rig, const ReadOptions& options)
       : bag_(BagReader::Open(path)) {
     CheckCuts(options.cuts, rig);
-    for (const BagSensor& sensor : SensorsOf(rig)) {
+    for (const SensorTopic& sensor : SensorsOf(rig)) {
       if (!IsWanted(sensor.sensor, options)) continue;
       const bool may_lack = sensor.IsCamera() ? options.skip_absent_cameras
                             : sensor.sensor == "lidar"
@@ -162,13 +95,13 @@ class BagSource : public SensorSource {
   }
 
  private:
-  void AddStream(const BagSensor& sensor, const RigCalibration& rig,
+  void AddStream(const SensorTopic& sensor, const RigCalibration& rig,
                  const std::vector<TopicCut>& cuts) {
     // A rig may name one topic with /compressed at its end or without; cuts name it as the rig
     // does.
     auto stream = std::unique_ptr<Stream>(
         new Stream{bag_->Cursor(sensor.topic),
-                   MakeParser(sensor, rig, bag_->path() + ": " + sensor.topic),
+                   MakeDecoder(sensor, rig, bag_->path() + ": " + sensor.topic),
                    TopicFilter(sensor.topic, CutsOf(cuts, TopicInRig(sensor, rig), sensor.sensor)),
                    {},
                    TimeOffset(sensor.sensor, rig),
@@ -186,8 +119,8 @@ class BagSource : public SensorSource {
     return camera == rig.cameras.end() ? 0.0 : camera->second.time_offset;
   }
 
-  static std::string TopicInRig(const BagSensor& sensor, const RigCalibration& rig) {
-    for (const BagSensor& named : SensorsOf(rig)) {
+  static std::string TopicInRig(const SensorTopic& sensor, const RigCalibration& rig) {
+    for (const SensorTopic& named : SensorsOf(rig)) {
       if (named.sensor == sensor.sensor) return named.topic;
     }
     return sensor.topic;
@@ -196,7 +129,7 @@ class BagSource : public SensorSource {
   /// The first stamp of the rig's topics, read or not, so that cuts do not move with what is read.
   void FindStart(const RigCalibration& rig) {
     start_ = std::numeric_limits<TimeNs>::max();
-    for (const BagSensor& sensor : SensorsOf(rig)) {
+    for (const SensorTopic& sensor : SensorsOf(rig)) {
       const auto cursor = bag_->Cursor(sensor.topic);
       if (cursor->Done()) continue;
       if (const auto stamp = HeaderStamp(cursor->Read())) start_ = std::min(start_, *stamp);
@@ -250,7 +183,7 @@ class BagSource : public SensorSource {
     const TimeNs record_time = stream->cursor->record_time();
     const MessageBytes bytes = stream->cursor->Read();
     if (const auto stamp = HeaderStamp(bytes)) SetDelay(stream, record_time, *stamp);
-    auto event = stream->parse(bytes, stream->filter);
+    auto event = stream->decode(bytes, stream->filter);
     stream->cursor->Advance();
     if (!event || !stream->filter.Accept(EventTime(*event), start_)) return;
     if (passed_on_ && EventTime(*event) < *passed_on_) {
@@ -275,10 +208,6 @@ class BagSource : public SensorSource {
   TimeNs end_ = 0;
 };
 
-bool Fits(const BagSensor& sensor, const std::string& type) {
-  return std::find(sensor.types.begin(), sensor.types.end(), type) != sensor.types.end();
-}
-
 }  // namespace
 
 std::unique_ptr<SensorSource> OpenBagSource(const std::string& path, const RigCalibration& rig,
@@ -286,25 +215,13 @@ std::unique_ptr<SensorSource> OpenBagSource(const std::string& path, const RigCa
   return std::make_unique<BagSource>(path, rig, options);
 }
 
-std::vector<BagSensor> SensorsOf(const RigCalibration& rig) {
-  std::vector<BagSensor> sensors;
-  if (rig.imu) sensors.push_back({"imu", rig.imu->topic, {"sensor_msgs/Imu"}, {}});
-  if (rig.lidar) sensors.push_back({"lidar", rig.lidar->topic, {"sensor_msgs/PointCloud2"}, {}});
-  for (const auto& [name, camera] : rig.cameras) {
-    sensors.push_back(
-        {name, camera.topic, {"sensor_msgs/Image", "sensor_msgs/CompressedImage"}, {}});
-  }
-  if (rig.wheels) sensors.push_back({"wheels", rig.wheels->topic, {"nav_msgs/Odometry"}, {}});
-  return sensors;
-}
-
-BagSensor FindTopic(const BagReader& bag, BagSensor sensor) {
+SensorTopic FindTopic(const BagReader& bag, SensorTopic sensor) {
   const auto& topics = bag.topics();
   const auto found = FindName(topics, sensor);
   if (found == topics.end()) {
     std::string others;
     for (const BagTopic& topic : topics) {
-      if (Fits(sensor, topic.type)) others += " " + topic.name;
+      if (sensor.Fits(topic.type)) others += " " + topic.name;
     }
     throw InputError(bag.path(), "has no topic " + sensor.topic + " (" + sensor.types.front() +
                                      ", for " + sensor.sensor + "); " +
@@ -312,7 +229,7 @@ BagSensor FindTopic(const BagReader& bag, BagSensor sensor) {
                                                      : "the rig could name one of:" + others));
   }
   for (auto topic = found; topic != topics.end() && topic->name == found->name; ++topic) {
-    if (!Fits(sensor, topic->type)) {
+    if (!sensor.Fits(topic->type)) {
       throw InputError(bag.path(), "topic " + topic->name + " is of type " + topic->type +
                                        "; expected " + sensor.types.front() + " for " +
                                        sensor.sensor);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "regolith/io/bag_reader.h"
+#include "regolith/io/message_decoder.h"
 #include "regolith/io/recording.h"
 
 namespace regolith {
@@ -15,21 +16,8 @@ namespace regolith {
 std::unique_ptr<SensorSource> OpenBagSource(const std::string& path, const RigCalibration& rig,
                                             const ReadOptions& options);
 
-/// What a sensor's topic is in a bag.
-struct BagSensor {
-  std::string sensor;              ///< "imu", "lidar", "wheels" or a camera's name
-  std::string topic;               ///< as the rig says, or with /compressed behind it
-  std::vector<std::string> types;  ///< message types that fit
-  std::string type;                ///< the one found
-
-  bool IsCamera() const { return types.size() > 1; }
-};
-
-/// The sensors of the rig, their topics not yet looked for.
-std::vector<BagSensor> SensorsOf(const RigCalibration& rig);
-
 /// Finds the topic of a sensor. Throws InputError that names the topics that would fit where it is
 /// absent, and the type where that is another one.
-BagSensor FindTopic(const BagReader& bag, BagSensor sensor);
+SensorTopic FindTopic(const BagReader& bag, SensorTopic sensor);
 
 }  // namespace regolith

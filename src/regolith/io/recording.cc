@@ -17,10 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kConvert =
-    "is a ROS 2 bag; convert it with `rosbags-convert --src FOLDER --dst NAME.bag` (pip install "
-    "rosbags)";
-
 std::string IfExists(const std::string& path) { return fs::exists(path) ? path : std::string(); }
 
 bool IsRos2Folder(const std::string& folder) {
@@ -88,7 +84,7 @@ RecordingIdentity OnlyDrive(const std::string& path, const std::vector<std::stri
 RecordingIdentity IdentifyFolder(const std::string& path) {
   const std::string simulated = SimulatedBag(path);
   if (!simulated.empty()) return BagIdentity(RecordingFormat::kSimulated, path, simulated);
-  if (IsRos2Folder(path)) throw InputError(path, kConvert);
+  if (IsRos2Folder(path)) RefuseRos2(path);
   for (const std::string& folder : {path, path + "/mav0"}) {
     if (IsEuroc(folder)) return FolderIdentity(RecordingFormat::kEuroc, path, folder, "euroc");
   }

@@ -250,7 +250,7 @@ std::vector<std::string> CheckRigFits(const RecordingIdentity& identity, const R
                                       const RigCalibration& rig) {
   std::vector<std::string> problems;
   const auto bag = IsBag(identity) ? BagReader::Open(identity.data_path) : nullptr;
-  for (const BagSensor& sensor : SensorsOf(rig)) {
+  for (const SensorTopic& sensor : SensorsOf(rig)) {
     const TopicInfo* topic = Find(info, sensor.sensor);
     if (bag != nullptr) {
       try {

@@ -124,9 +124,15 @@ TEST(Recording, FoldersThatHoldNoneAreExplained) {
   EXPECT_THAT(ErrorOf([&] { IdentifyRecording(folder.path()); }), HasSubstr("holds no recording"));
   EXPECT_THAT(ErrorOf([&] { IdentifyRecording(folder.Path("none")); }), HasSubstr("no such file"));
   WriteFile(folder.Path("metadata.yaml"), "rosbag2_bagfile_information:\n  version: 5\n");
-  EXPECT_THAT(ErrorOf([&] { IdentifyRecording(folder.path()); }),
-              HasSubstr("rosbags-convert --src"));
+  const std::string command =
+      "`rosbags-convert --src " + folder.path() + " --dst " + folder.path() + ".bag`";
+  EXPECT_THAT(ErrorOf([&] { IdentifyRecording(folder.path()); }), HasSubstr(command));
+  WriteFile(folder.Path("a.mcap"), "\x89MCAP0\r\n");
+  EXPECT_THAT(ErrorOf([&] { IdentifyRecording(folder.Path("a.mcap")); }), HasSubstr(command));
   fs::remove(folder.Path("metadata.yaml"));
+  const std::string file = "--src " + folder.Path("a.mcap") + " --dst " + folder.Path("a.bag");
+  EXPECT_THAT(ErrorOf([&] { IdentifyRecording(folder.Path("a.mcap")); }), HasSubstr(file));
+  fs::remove(folder.Path("a.mcap"));
   fs::create_directories(folder.Path("velodyne"));
   EXPECT_THAT(ErrorOf([&] { IdentifyRecording(folder.path()); }), HasSubstr("no times.txt"));
   fs::remove(folder.Path("velodyne"));

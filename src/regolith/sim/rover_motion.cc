@@ -46,6 +46,13 @@ RoverMotion::RoverMotion(const Surface& surface, Span<const PlanarPose> path,
   spline_ = Spline(std::move(controls), kMotionInterval);
 }
 
+void RoverMotion::Append(const PlanarPose& pose, const RoverOptions& rover,
+                         Suspension* suspension) {
+  Vector7 control = ControlPoint(pose, rover, suspension);
+  control.head<3>() -= origin_;
+  spline_.Append(control);
+}
+
 MotionState RoverMotion::ToState(const Spline::Value& value) {
   const double pitch = value.value[4];
   const double roll = value.value[5];

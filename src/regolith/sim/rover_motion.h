@@ -12,6 +12,7 @@
 #include "regolith/sim/drive.h"
 #include "regolith/sim/ground.h"
 #include "regolith/sim/scenario_options.h"
+#include "regolith/sim/suspension.h"
 #include "regolith/sim/uniform_spline.h"
 #include "regolith/sim/vibration.h"
 
@@ -36,6 +37,12 @@ class RoverMotion {
   /// stand.
   RoverMotion(const Surface& surface, Span<const PlanarPose> path, const RoverOptions& rover,
               const VibrationOptions& vibration, uint64_t seed);
+
+  /// Adds a pose kMotionInterval after the last one. Throws InputError where the rover cannot
+  /// stand.
+  void Append(const PlanarPose& pose, const RoverOptions& rover, Suspension* suspension);
+  /// Time (s) up to which further poses change nothing.
+  double settled() const { return spline_.settled(); }
 
   /// At `time` s since the start.
   MotionState At(double time) const;

@@ -177,4 +177,10 @@ void ScenarioOptions::Check() const {
   CheckMesh(mesh);
 }
 
+void ScenarioOptions::MakeDraft() {
+  constexpr double kDraftSpacing = 0.04;  // m
+  mesh.spacing = kDraftSpacing;
+  mesh.interreflection = false;
+}
+
 }  // namespace regolith

@@ -21,6 +21,7 @@
 #include "regolith/sim/rover_geometry.h"
 #include "regolith/sim/rover_motion.h"
 #include "regolith/sim/rover_shadow.h"
+#include "regolith/sim/rover_view.h"
 #include "regolith/sim/scene.h"
 #include "regolith/sim/wheel_simulator.h"
 #include "regolith/terrain/surface.h"
@@ -29,17 +30,15 @@ namespace regolith {
 namespace {
 
 constexpr TimeNs kEpoch = 1'700'000'000'000'000'000;  // an arbitrary date, as a real recorder's
-constexpr double kDegree = M_PI / 180.0;
-constexpr double kTruthRate = 100.0;     // Hz
-constexpr double kTerrainMargin = 30.0;  // m
+constexpr double kTruthRate = 100.0;                  // Hz
+constexpr double kTerrainMargin = 30.0;               // m
 constexpr double kTerrainSpacing = 0.05;
-constexpr double kSettlePeriod = 1.0;      // s between two exchanges of ground tiles
-constexpr double kSunIlluminance = 1.3e5;  // lx, of the sun above the air at the Earth
-constexpr int kOtherSuns = 4;              // in a set of pairs
-constexpr double kPairYaw = 0.2;           // rad, standard deviations between the images of a pair
-constexpr double kPairTilt = 0.06;         // rad
-constexpr double kPairShift = 0.25;        // m
-constexpr double kPathEnd = 1.0;           // s of path beyond the last measurement
+constexpr double kSettlePeriod = 1.0;  // s between two exchanges of ground tiles
+constexpr int kOtherSuns = 4;          // in a set of pairs
+constexpr double kPairYaw = 0.2;       // rad, standard deviations between the images of a pair
+constexpr double kPairTilt = 0.06;     // rad
+constexpr double kPairShift = 0.25;    // m
+constexpr double kPathEnd = 1.0;       // s of path beyond the last measurement
 const char* const kCameras[] = {"mono", "left", "right"};
 
 std::unique_ptr<Surface> MakeSurface(const ScenarioOptions& options, const HeightGrid* dem) {
@@ -69,14 +68,6 @@ std::vector<Rock> RocksInWorld(const Surface& surface, const Drive& drive,
     rock.ground -= motion.origin().z();
   }
   return rocks;
-}
-
-CameraMotion MotionOf(const MotionState& motion, const SE3& T_imu_camera) {
-  const Eigen::Quaterniond R_camera_imu = T_imu_camera.rotation.conjugate();
-  const Eigen::Vector3d v_imu = motion.T_world_imu.rotation.conjugate() * motion.v_world_imu +
-                                motion.angular_velocity_imu.cross(T_imu_camera.translation);
-  return {(R_camera_imu * v_imu).cast<float>(),
-          (R_camera_imu * motion.angular_velocity_imu).cast<float>()};
 }
 
 // What is needed to see the same ground under another sun.
@@ -175,7 +166,6 @@ class RoverSimulator : public Simulator {
   SensorEvent NextFrame();
   void Settle(double time);
   Exposure ChooseExposure(const std::string& camera, const RenderedView& view);
-  Lamp LampAt(const SE3& T_world_base) const;
   void ChangeOtherSun(int index);
 
   ScenarioOptions options_;
@@ -260,20 +250,6 @@ Exposure RoverSimulator::ChooseExposure(const std::string& camera, const Rendere
   return exposures_[camera] = control.Next(view);
 }
 
-Lamp RoverSimulator::LampAt(const SE3& T_world_base) const {
-  const LampOptions& options = options_.lamp;
-  const SE3 T_base_camera = BaseFromCamera(options_.camera, "mono");
-  Lamp lamp;
-  lamp.place =
-      (T_world_base * Eigen::Vector3d(T_base_camera.translation.x(), options.side, options.height))
-          .cast<float>();
-  lamp.axis =
-      (T_world_base.rotation * T_base_camera.rotation * Eigen::Vector3d::UnitZ()).cast<float>();
-  lamp.irradiance = static_cast<float>(options.candela / kSunIlluminance);
-  lamp.beam = static_cast<float>(options.beam_deg * kDegree);
-  return lamp;
-}
-
 // The three cameras are triggered together and come one after the other, with equal stamps.
 SensorEvent RoverSimulator::NextFrame() {
   CameraFrame frame;
@@ -288,14 +264,14 @@ SensorEvent RoverSimulator::NextFrame() {
   // The first camera stands between the others and spares them rays.
   const bool is_first = next_camera_ == 0;
   RenderedView& view = is_first ? first_view_ : view_;
-  renderer_.Render(T_world_camera, {&rover, LampAt(T_world_base)}, &view,
+  renderer_.Render(T_world_camera, {&rover, LampOnRover(options_, T_world_base)}, &view,
                    is_first ? nullptr : nearby_.get());
   if (is_first) {
     nearby_ = std::make_unique<NearbyView>(view, T_world_camera, MakeIntrinsics(options_.camera),
                                            0.5 * options_.camera.baseline, *scene_);
   }
   frame.image =
-      camera_.Expose(view, MotionOf(motion, T_imu_camera), ChooseExposure(frame.camera, view),
+      camera_.Expose(view, CameraMotionOf(motion, T_imu_camera), ChooseExposure(frame.camera, view),
                      StreamSeed(options_.seed, frame.camera), camera_schedule_.next);
   if (++next_camera_ == std::size(kCameras)) {
     next_camera_ = 0;
@@ -350,7 +326,7 @@ ImagePair RoverSimulator::Pair(int index, int count) {
   const auto frame = 2 * static_cast<uint64_t>(index);
   const auto expose = [&](const Renderer& renderer, const SE3& T_world_camera, uint64_t number) {
     const SE3 T_world_base = T_world_camera * BaseFromCamera(options_.camera, "mono").Inverse();
-    renderer.Render(T_world_camera, {nullptr, LampAt(T_world_base)}, &view_);
+    renderer.Render(T_world_camera, {nullptr, LampOnRover(options_, T_world_base)}, &view_);
     return camera_.Expose(view_, CameraMotion{}, ExposureControl(options_.camera).Next(view_), seed,
                           number);
   };

@@ -50,6 +50,11 @@ class UniformSpline {
     REGOLITH_CHECK(!controls_.empty() && interval > 0.0, controls_.size(), " controls");
   }
 
+  /// Adds a control point behind the last one. What is before `settled()` stays as it is.
+  void Append(const Vector& control) { controls_.push_back(control); }
+  /// Time (s) up to which more control points change nothing.
+  double settled() const { return (static_cast<double>(controls_.size()) - 3.0) * interval_; }
+
   /// `time` in s.
   Value At(double time) const {
     const double position = time / interval_;

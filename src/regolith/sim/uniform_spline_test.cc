@@ -64,5 +64,21 @@ TEST(UniformSpline, RestsExactlyWhereItsControlsRest) {
   EXPECT_EQ(value.second, Spline::Vector::Zero());
 }
 
+TEST(UniformSpline, MoreControlsChangeNothingThatIsSettled) {
+  UniformSpline<1> spline({Eigen::Matrix<double, 1, 1>(1.0), Eigen::Matrix<double, 1, 1>(2.0),
+                           Eigen::Matrix<double, 1, 1>(5.0), Eigen::Matrix<double, 1, 1>(3.0),
+                           Eigen::Matrix<double, 1, 1>(4.0)},
+                          0.5);
+  const double settled = spline.settled();
+  EXPECT_EQ(settled, 1.0);
+  const UniformSpline<1> before = spline;
+  spline.Append(Eigen::Matrix<double, 1, 1>(100.0));
+  for (double time = 0.0; time < settled; time += 0.1) {
+    EXPECT_EQ(spline.At(time).value, before.At(time).value);
+    EXPECT_EQ(spline.At(time).second, before.At(time).second);
+  }
+  EXPECT_NE(spline.At(settled + 0.1).value, before.At(settled + 0.1).value);
+}
+
 }  // namespace
 }  // namespace regolith

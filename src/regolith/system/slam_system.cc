@@ -144,6 +144,11 @@ bool TracksImages(const PipelineOptions& options, const RigCalibration& rig) {
   return rig.cameras.count(options.tracked_camera) > 0;
 }
 
+SensorNeeds SensorsNeeded(const PipelineOptions& options, const RigCalibration& rig) {
+  std::vector<std::string> notices;
+  return NeedsOf(AdaptedTo(options, rig, &notices), rig);
+}
+
 SlamSystem::SlamSystem(const PipelineOptions& options, const RigCalibration& rig,
                        ThreadPool* threads, std::optional<Image> camera_mask)
     : options_(AdaptedTo(options, rig, &setup_notices_)),
@@ -201,6 +206,7 @@ void SlamSystem::PostVisual(size_t number, size_t known, std::shared_ptr<const S
     for (const auto& estimate : estimates) visual_->AddScanEstimate(*estimate);
     std::vector<FrameReport> reports = event ? visual_->Process(*event) : visual_->Finish();
     const std::lock_guard lock(exchange_);
+    if (visual_->tracks().stamp != tracks_.stamp) tracks_ = visual_->tracks();
     for (FrameReport& report : reports) visual_reports_.emplace_back(number, std::move(report));
     if (lidar_) {
       velocities_.emplace_back(number, visual_->TakeVelocities());
@@ -375,6 +381,11 @@ void SlamSystem::RethrowFailure() const {
   visual_worker_.RethrowFailure();
   lidar_worker_.RethrowFailure();
   if (backend_) backend_->RethrowFailure();
+}
+
+ImageTracks SlamSystem::tracks() const {
+  const std::lock_guard lock(exchange_);
+  return tracks_;
 }
 
 const Trajectory& SlamSystem::odometry() const {

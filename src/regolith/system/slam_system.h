@@ -39,6 +39,9 @@ struct SensorNeeds {
 /// Whether a pipeline tracks images of this rig: it names a camera that is there.
 bool TracksImages(const PipelineOptions& options, const RigCalibration& rig);
 
+/// What a pipeline reads of this rig. Throws InputError as SlamSystem does.
+SensorNeeds SensorsNeeded(const PipelineOptions& options, const RigCalibration& rig);
+
 /// A whole pipeline: takes measurements in order of their stamps and makes a trajectory and a map
 /// of them. The same code serves recordings and live sensors, and it never waits for a clock.
 ///
@@ -70,6 +73,8 @@ class SlamSystem {
   std::optional<NavState> live() const { return live_.state(); }
   /// Where `odom` lies in the map that loops have corrected.
   SE3 T_map_odom() const { return backend_ ? backend_->T_map_odom() : SE3(); }
+  /// Of the last image that has been tracked, to be shown. For live use, likewise.
+  ImageTracks tracks() const;
 
   // What follows is for after Settle or Finish, until the next measurement.
 
@@ -116,12 +121,13 @@ class SlamSystem {
   std::unique_ptr<LidarPart> lidar_;        ///< null where the camera's side leads
   std::unique_ptr<BackendPart> backend_;    ///< null where there is none
 
-  std::mutex exchange_;  ///< guards what the sides leave for each other and for the caller
+  mutable std::mutex exchange_;  ///< guards what the sides leave for each other and for the caller
   Numbered<std::vector<BodyVelocity>> velocities_;
   Numbered<std::shared_ptr<const ScanEstimate>> estimates_;
   Numbered<FrameReport> visual_reports_;
   Numbered<FrameReport> lidar_reports_;
   std::optional<InertialState> newest_;  ///< that `live_` has not taken yet
+  ImageTracks tracks_;
 
   // The caller's own.
   size_t count_ = 0;                ///< measurements so far

@@ -146,6 +146,7 @@ std::vector<FrameReport> VisualPart::Track(const CameraFrame& frame) {
   report.features = tracked.status;
   report.stages = std::move(tracked.stages);
   report.completed = std::chrono::steady_clock::now();
+  tracks_ = {frame.time, tracked.features};
   if (!odometry_) return {report};
   VioFrame features{frame.time, std::move(tracked.features), {}};
   if (stereo_ && waiting_right_ &&

@@ -29,6 +29,12 @@ enum class VisualRole {
   kLeads,   ///< its odometry is the pipeline's
 };
 
+/// The features of an image, as tracked.
+struct ImageTracks {
+  TimeNs stamp = 0;
+  std::vector<TrackedFeature> features;
+};
+
 /// The camera's side of a pipeline: tracks, pairs of images, visual–inertial odometry.
 class VisualPart {
  public:
@@ -51,6 +57,8 @@ class VisualPart {
   Trajectory Refined() const;
   /// The newest state, while there is one.
   std::optional<InertialState> Newest() const;
+  /// Of the last image.
+  const ImageTracks& tracks() const { return tracks_; }
   size_t images() const { return images_; }
   size_t scans() const { return scans_; }
   size_t resets() const { return odometry_ ? odometry_->resets() : 0; }
@@ -83,6 +91,7 @@ class VisualPart {
   std::vector<BodyVelocity> velocities_;
   Trajectory trajectory_;
   std::vector<Anchor> anchors_;  ///< of the poses of `trajectory_`
+  ImageTracks tracks_;
   size_t images_ = 0;
   size_t scans_ = 0;
   size_t pairs_missed_ = 0;

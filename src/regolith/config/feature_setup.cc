@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Regolith authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "regolith/apps/feature_setup.h"
+#include "regolith/config/feature_setup.h"
 
-#include "regolith/apps/install_paths.h"
+#include "regolith/config/install_paths.h"
 #include "regolith/config/model_config.h"
 #include "regolith/core/error.h"
 

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Regolith authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "regolith/apps/feature_setup.h"
+#include "regolith/config/feature_setup.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "regolith/config/test_folder_internal.h"
 #include "regolith/core/error.h"
-#include "regolith/io/atomic_file.h"
-#include "regolith/io/test_folder.h"
 
 namespace regolith {
 namespace {

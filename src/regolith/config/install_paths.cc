@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Regolith authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "regolith/apps/install_paths.h"
+#include "regolith/config/install_paths.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -15,13 +15,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Folders that may hold config/: installed beside the program, or the source tree above
-// build/release.
+// Folders that may hold config/: installed beside the program (ROS nodes lie in lib/regolith), or
+// the source tree above build/release.
 std::vector<fs::path> Roots() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  return {program.parent_path() / "share" / "regolith", program.parent_path().parent_path(),
-          REGOLITH_SOURCE_DIR};
+  const fs::path above = program.parent_path();
+  return {above / "share" / "regolith", above.parent_path() / "share" / "regolith",
+          above.parent_path(), REGOLITH_SOURCE_DIR};
 }
 
 fs::path ConfigFolder(const std::string& kind) {

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/config/ros_node_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "regolith/core/error.h"
+
+namespace regolith {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string ErrorOf(const std::string& text) {
+  try {
+    LoadSlamNode(YamlDocument::FromText(text, "/regolith"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RosNodeConfig, WhatIsWrittenReadsBack) {
+  SlamNodeOptions options;
+  options.rig = "rover.yaml";
+  options.live.max_scans = 7;
+  options.live.merger.hold = 0.25;
+  const std::string text = WriteSlamNode(options);
+  EXPECT_EQ(WriteSlamNode(LoadSlamNode(YamlDocument::FromText(text, "node"))), text);
+  const std::string sim = WriteSimNode({});
+  EXPECT_EQ(WriteSimNode(LoadSimNode(YamlDocument::FromText(sim, "node"))), sim);
+}
+
+TEST(RosNodeConfig, SaysWhichParameterIsWrong) {
+  EXPECT_THAT(ErrorOf("pipelin: lio"), AllOf(HasSubstr("/regolith"), HasSubstr("pipeline")));
+  EXPECT_THAT(ErrorOf("map_period: often"), HasSubstr("map_period"));
+  EXPECT_THAT(ErrorOf("tf_rate: -1"), HasSubstr("/regolith"));
+}
+
+}  // namespace
+}  // namespace regolith
