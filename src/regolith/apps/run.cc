@@ -173,7 +173,6 @@ int Run(const RunArguments& arguments) {
   read.skip_absent_cameras = setup.pipeline.odometry != OdometryKind::kVio &&
                              setup.pipeline.odometry != OdometryKind::kStereo;
   read.skip_absent_wheels = setup.pipeline.lio.lidar;
-  read.skip_absent_lidar = system.needs().can_lack_lidar;
   read.cuts = setup.cuts;
   const auto source = OpenRecording(setup.identity, setup.rig, read);
   PrepareOutputFolder(arguments.out, arguments.overwrite);

@@ -70,7 +70,7 @@ TEST(PipelineConfig, AnUnknownOdometryIsRefused) {
     LoadPipeline(YamlDocument::FromText("odometry: loam\n", "pipeline.yaml"));
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("expected lio, lego_loam or vio"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("expected lio, lego_loam, vio or stereo"));
   }
 }
 

@@ -55,9 +55,8 @@ class BagSource : public SensorSource {
     CheckCuts(options.cuts, rig);
     for (const SensorTopic& sensor : SensorsOf(rig)) {
       if (!IsWanted(sensor.sensor, options)) continue;
-      const bool may_lack = sensor.IsCamera() ? options.skip_absent_cameras
-                            : sensor.sensor == "lidar"
-                                ? options.skip_absent_lidar
+      const bool may_lack = sensor.IsCamera()
+                                ? options.skip_absent_cameras
                                 : sensor.sensor == "wheels" && options.skip_absent_wheels;
       if (may_lack && FindName(bag_->topics(), sensor) == bag_->topics().end()) {
         const std::string what =

@@ -51,7 +51,6 @@ struct ReadOptions {
   /// Cameras whose topic a bag lacks are left out, with a notice, instead of refused.
   bool skip_absent_cameras = false;
   bool skip_absent_wheels = false;  ///< the same for the wheels' topic
-  bool skip_absent_lidar = false;   ///< and for the lidar's
   bool wheels = false;
   std::vector<TopicCut> cuts;
 };

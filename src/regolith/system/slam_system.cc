@@ -67,7 +67,6 @@ SensorNeeds VisualNeeds(const PipelineOptions& options, const RigCalibration& ri
   SensorNeeds needs;
   needs.imu = true;
   needs.lidar = rig.lidar.has_value();
-  needs.can_lack_lidar = true;
   needs.wheels = options.vio.wheels && rig.wheels.has_value();
   needs.cameras.push_back(options.tracked_camera);
   if (options.vio.stereo) needs.cameras.push_back(RightCamera(options, rig));
@@ -78,7 +77,6 @@ SensorNeeds VisualNeeds(const PipelineOptions& options, const RigCalibration& ri
 SensorNeeds StereoNeeds(const PipelineOptions& options, const RigCalibration& rig) {
   SensorNeeds needs;
   needs.lidar = rig.lidar.has_value();
-  needs.can_lack_lidar = true;
   needs.cameras = {options.tracked_camera, RightCamera(options, rig)};
   return needs;
 }
@@ -96,8 +94,6 @@ SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
   const bool is_visual = tracks && options.visual && needs.imu;
   needs.wheels =
       is_lio && (options.lio.wheels || (is_visual && options.vio.wheels)) && rig.wheels.has_value();
-  needs.can_lack_lidar =
-      is_lio && needs.imu && (is_visual || (options.lio.wheels && rig.wheels.has_value()));
   if (tracks) needs.cameras.push_back(options.tracked_camera);
   if (is_visual && options.vio.stereo) needs.cameras.push_back(RightCamera(options, rig));
   return needs;

@@ -33,7 +33,6 @@ struct SensorNeeds {
   bool lidar = false;
   bool wheels = false;
   std::vector<std::string> cameras;  ///< names in the rig
-  bool can_lack_lidar = false;       ///< the others carry on without
 };
 
 /// Whether a pipeline tracks images of this rig: it names a camera that is there.
