@@ -28,6 +28,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kInterrupted = 130;
+constexpr double kStartTime = 2.0;  // s
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -69,14 +70,15 @@ void Keep(std::vector<FrameReport> reports, RunRecord* record) {
   for (FrameReport& report : reports) record->frames.push_back(std::move(report));
 }
 
-/// Of all frames with a pose: from when the last of what it is made of was due.
+/// Of all frames with a pose: from when the last of what it is made of was due. Those of the start,
+/// which wait for the IMU's first second, are left out.
 std::vector<double> Latencies(const std::vector<FrameReport>& frames, const Pacer& pacer) {
   std::vector<double> latencies;
   for (const FrameReport& frame : frames) {
     const bool has_pose = frame.source == FrameSource::kScan ? frame.has_scan
                           : frame.stereo ? frame.stereo->T_world_camera.has_value()
                                          : frame.visual.has_value();
-    if (!has_pose) continue;
+    if (!has_pose || SecondsBetween(frames.front().end, frame.end) < kStartTime) continue;
     const std::chrono::duration<double, std::milli> late = frame.completed - pacer.Due(frame.end);
     latencies.push_back(late.count());
   }
