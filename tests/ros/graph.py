@@ -132,10 +132,14 @@ class Listener:
 
     def __init__(self):
         self.kept = {}
+        self.subscribers = {}
         self.lock = threading.Lock()
 
     def listen(self, topic, kind, keep):
+        """From now on; who listened to the topic before does so no more."""
         import rospy
+        if topic in self.subscribers:
+            self.subscribers.pop(topic).unregister()
         self.kept[topic] = []
 
         def receive(message):
@@ -143,7 +147,7 @@ class Listener:
             with self.lock:
                 self.kept[topic].append(value)
 
-        rospy.Subscriber(topic, kind, receive, queue_size=1000)
+        self.subscribers[topic] = rospy.Subscriber(topic, kind, receive, queue_size=1000)
 
     def take(self, topic):
         with self.lock:
