@@ -171,10 +171,8 @@ int Run(const RunArguments& arguments) {
   read.lidar = system.needs().lidar;
   read.wheels = system.needs().wheels;
   read.cameras = system.needs().cameras;
-  // The trajectory stands without them, unless it is made of them.
-  read.skip_absent_cameras = setup.pipeline.odometry != OdometryKind::kVio &&
-                             setup.pipeline.odometry != OdometryKind::kStereo;
-  read.skip_absent_wheels = setup.pipeline.lio.lidar;
+  read.skip_absent_cameras = system.needs().may_lack_cameras;
+  read.skip_absent_wheels = system.needs().may_lack_wheels;
   read.cuts = setup.cuts;
   const auto source = OpenRecording(setup.identity, setup.rig, read);
   PrepareOutputFolder(arguments.out, arguments.overwrite);

@@ -2,32 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "regolith/core/test_folder.h"
+
 namespace regolith {
-
-/// A folder of a test's own that goes with it.
-class TestFolder {
- public:
-  TestFolder() : path_((std::filesystem::temp_directory_path() / "regolith_XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr) throw std::filesystem::filesystem_error(path_, {});
-  }
-  ~TestFolder() {
-    std::error_code error;
-    std::filesystem::remove_all(path_, error);
-  }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-
-  const std::string& path() const { return path_; }
-  std::string Path(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
 
 inline void WriteFile(const std::string& path, const std::string& text) {
   std::ofstream(path) << text;

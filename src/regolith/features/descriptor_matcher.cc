@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "regolith/core/check.h"
+#include "regolith/features/hamming.h"
 #include "regolith/features/nearest_sweep.h"
 #include "regolith/features/pixel_grid.h"
 
@@ -45,15 +45,7 @@ int32_t Dot(const int16_t* first, const int16_t* second, size_t stride) {
 }
 
 int32_t HammingSimilarity(const uint8_t* first, const uint8_t* second) {
-  int32_t distance = 0;
-  for (int word = 0; word < kBinaryBytes / 8; ++word) {
-    uint64_t a;
-    uint64_t b;
-    std::memcpy(&a, first + 8 * word, 8);
-    std::memcpy(&b, second + 8 * word, 8);
-    distance += __builtin_popcountll(a ^ b);
-  }
-  return -distance;
+  return -HammingDistance(first, second);
 }
 
 void Consider(int32_t similarity, int32_t index, Nearest* nearest) {

@@ -3,33 +3,11 @@
 #pragma once
 
 #include <cstdlib>
-#include <filesystem>
 #include <string>
 
+#include "regolith/core/test_folder.h"
+
 namespace regolith {
-
-/// A folder of a test's own that goes with it.
-class TestFolder {
- public:
-  TestFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "regolith_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::filesystem::filesystem_error(name, {});
-    path_ = name;
-  }
-  ~TestFolder() {
-    std::error_code error;
-    std::filesystem::permissions(path_, std::filesystem::perms::owner_all, error);
-    std::filesystem::remove_all(path_, error);
-  }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-
-  const std::string& path() const { return path_; }
-  std::string Path(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
 
 /// The real data that some tests use: REGOLITH_DATA, else beside the source.
 inline std::string DataFolder() {

@@ -28,6 +28,7 @@
 #include "regolith/io/atomic_file.h"
 #include "regolith/io/bag_writer.h"
 #include "regolith/io/ros1_conversions_internal.h"
+#include "regolith/ros/node_main_internal.h"
 #include "regolith/ros/ros_messages_internal.h"
 #include "regolith/ros/ros_parameters_internal.h"
 #include "regolith/sim/live_simulator.h"
@@ -37,7 +38,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kWrongInput = 2;
 constexpr double kLongestLead = 0.25;  // s behind real time, beyond which it is not caught up with
 constexpr double kReportPeriod = 5.0;  // s
 
@@ -271,14 +271,5 @@ int RunNode() {
 }  // namespace regolith
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "rover");
-  try {
-    return regolith::RunNode();
-  } catch (const regolith::InputError& error) {
-    regolith::LogError(error.what());
-    return regolith::kWrongInput;
-  } catch (const std::exception& error) {
-    regolith::LogError(error.what());
-    return 1;
-  }
+  return regolith::NodeMain(argc, argv, "rover", regolith::RunNode);
 }

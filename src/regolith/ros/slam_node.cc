@@ -25,6 +25,7 @@
 #include "regolith/core/log.h"
 #include "regolith/io/ply.h"
 #include "regolith/io/tum.h"
+#include "regolith/ros/node_main_internal.h"
 #include "regolith/ros/node_setup.h"
 #include "regolith/ros/ros_parameters_internal.h"
 #include "regolith/ros/slam_outputs_internal.h"
@@ -34,7 +35,6 @@
 namespace regolith {
 namespace {
 
-constexpr int kWrongInput = 2;
 constexpr uint32_t kMessageQueue = 5000;
 constexpr size_t kMostUnread = 4;  // scans or images of a topic
 
@@ -269,14 +269,5 @@ int RunNode() {
 }  // namespace regolith
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "regolith");
-  try {
-    return regolith::RunNode();
-  } catch (const regolith::InputError& error) {
-    regolith::LogError(error.what());
-    return regolith::kWrongInput;
-  } catch (const std::exception& error) {
-    regolith::LogError(error.what());
-    return 1;
-  }
+  return regolith::NodeMain(argc, argv, "regolith", regolith::RunNode);
 }

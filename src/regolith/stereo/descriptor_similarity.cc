@@ -3,33 +3,21 @@
 #include "regolith/stereo/descriptor_similarity.h"
 
 #include <cmath>
-#include <cstring>
 
 #include "regolith/core/check.h"
+#include "regolith/features/hamming.h"
 
 namespace regolith {
 namespace {
 
 constexpr int kBits = 8 * kBinaryBytes;
 
-int Hamming(const uint8_t* first, const uint8_t* second) {
-  int distance = 0;
-  for (int word = 0; word < kBinaryBytes / 8; ++word) {
-    uint64_t a;
-    uint64_t b;
-    std::memcpy(&a, first + 8 * word, 8);
-    std::memcpy(&b, second + 8 * word, 8);
-    distance += __builtin_popcountll(a ^ b);
-  }
-  return distance;
-}
-
 }  // namespace
 
 float DescriptorSimilarity(const Descriptors& first, size_t first_row, const Descriptors& second,
                            size_t second_row) {
   if (first.type == DescriptorType::kBinary) {
-    return SimilarityOfHamming(Hamming(first.Bits(first_row), second.Bits(second_row)));
+    return SimilarityOfHamming(HammingDistance(first.Bits(first_row), second.Bits(second_row)));
   }
   const float* a = first.Row(first_row);
   const float* b = second.Row(second_row);

@@ -59,14 +59,9 @@ bool FrameTracker::SearchAround(const StereoFrame& last, double radius, StereoFr
                                          : last.T_world_camera * last.features.Point(i, camera);
     const Eigen::Vector3d point_camera = T_camera_world * position;
     if (point_camera.z() <= 0.0) continue;
-    SearchPoint point;
-    point.predicted = camera.Project(point_camera);
-    if (!camera.Contains(point.predicted.head<2>())) continue;
-    point.scale = last.features.has_scales ? last.features.scales[i] : 0.0F;
-    point.radius = static_cast<float>(radius) * last.features.scales[i];
-    point.descriptors = &last.features.descriptors;
-    point.row = i;
-    points.push_back(point);
+    const Eigen::Vector3d predicted = camera.Project(point_camera);
+    if (!camera.Contains(predicted.head<2>())) continue;
+    points.push_back(FeatureAsPoint(last.features, i, predicted, radius));
     positions.push_back(position);
     landmarks.push_back(landmark != nullptr ? last.landmarks[i] : kNoId);
   }

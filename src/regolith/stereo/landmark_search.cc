@@ -22,6 +22,17 @@ DescriptorMatcherOptions MatcherOptions(const LandmarkSearchOptions& options, do
 
 }  // namespace
 
+SearchPoint FeatureAsPoint(const StereoFeatures& features, size_t row,
+                           const Eigen::Vector3d& predicted, double radius) {
+  SearchPoint point;
+  point.predicted = predicted;
+  point.scale = features.has_scales ? features.scales[row] : 0.0F;
+  point.radius = static_cast<float>(radius) * features.scales[row];
+  point.descriptors = &features.descriptors;
+  point.row = row;
+  return point;
+}
+
 LandmarkSearch::LandmarkSearch(const LandmarkSearchOptions& options, const RectifiedCamera& camera)
     : options_(options),
       camera_(camera),

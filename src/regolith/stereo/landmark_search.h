@@ -22,6 +22,11 @@ struct SearchPoint {
   size_t row = 0;
 };
 
+/// Feature `row` as a point that is looked for elsewhere, `radius` pixels at scale 1 around its
+/// predicted place. The features outlive it.
+SearchPoint FeatureAsPoint(const StereoFeatures& features, size_t row,
+                           const Eigen::Vector3d& predicted, double radius);
+
 /// Finds known points among the features of an image by their descriptors. Keeps its buffers.
 class LandmarkSearch {
  public:

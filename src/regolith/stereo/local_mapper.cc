@@ -151,14 +151,9 @@ void LocalMapper::AddFarPointsWith(KeyframeId newest, KeyframeId neighbour_id) {
     const Eigen::Vector3d point_neighbour =
         T_neighbour_world * (keyframe.T_world_camera * keyframe.features.Point(i, camera));
     if (point_neighbour.z() < kNearest) continue;
-    SearchPoint point;
-    point.predicted = camera.Project(point_neighbour);
-    if (!camera.Contains(point.predicted.head<2>())) continue;
-    point.scale = keyframe.features.has_scales ? keyframe.features.scales[i] : 0.0F;
-    point.radius = static_cast<float>(kFarRadius) * keyframe.features.scales[i];
-    point.descriptors = &keyframe.features.descriptors;
-    point.row = i;
-    points.push_back(point);
+    const Eigen::Vector3d predicted = camera.Project(point_neighbour);
+    if (!camera.Contains(predicted.head<2>())) continue;
+    points.push_back(FeatureAsPoint(keyframe.features, i, predicted, kFarRadius));
   }
   for (const FeatureMatch& match : search_.ByPlace(points, neighbour.features, true)) {
     const size_t feature = points[static_cast<size_t>(match.first)].row;

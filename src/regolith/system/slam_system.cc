@@ -68,6 +68,7 @@ SensorNeeds VisualNeeds(const PipelineOptions& options, const RigCalibration& ri
   needs.imu = true;
   needs.lidar = rig.lidar.has_value();
   needs.wheels = options.vio.wheels && rig.wheels.has_value();
+  needs.may_lack_wheels = true;
   needs.cameras.push_back(options.tracked_camera);
   if (options.vio.stereo) needs.cameras.push_back(RightCamera(options, rig));
   return needs;
@@ -94,6 +95,9 @@ SensorNeeds NeedsOf(const PipelineOptions& options, const RigCalibration& rig) {
   const bool is_visual = tracks && options.visual && needs.imu;
   needs.wheels =
       is_lio && (options.lio.wheels || (is_visual && options.vio.wheels)) && rig.wheels.has_value();
+  // The trajectory stands without them, unless it is made of them.
+  needs.may_lack_cameras = true;
+  needs.may_lack_wheels = !is_lio || options.lio.lidar;
   if (tracks) needs.cameras.push_back(options.tracked_camera);
   if (is_visual && options.vio.stereo) needs.cameras.push_back(RightCamera(options, rig));
   return needs;

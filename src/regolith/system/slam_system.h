@@ -33,6 +33,9 @@ struct SensorNeeds {
   bool lidar = false;
   bool wheels = false;
   std::vector<std::string> cameras;  ///< names in the rig
+  // A recording that lacks them is served by the others.
+  bool may_lack_cameras = false;
+  bool may_lack_wheels = false;
 };
 
 /// Whether a pipeline tracks images of this rig: it names a camera that is there.

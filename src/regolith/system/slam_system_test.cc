@@ -183,6 +183,7 @@ TEST(SlamSystem, ARigWithoutALidarIsServedByTheOthersOrRefused) {
   rig.imu.emplace();
   const SlamSystem sees(options, rig, &threads);
   EXPECT_EQ(sees.needs().cameras.size(), 1U);
+  EXPECT_FALSE(sees.needs().may_lack_cameras);  // they are all that is left
   EXPECT_NE(sees.Notices()[0].find("no lidar: visual"), std::string::npos);
   rig.cameras.clear();
   EXPECT_THROW(SlamSystem(options, rig, &threads), InputError);
@@ -190,6 +191,7 @@ TEST(SlamSystem, ARigWithoutALidarIsServedByTheOthersOrRefused) {
   const SlamSystem rolls(options, rig, &threads);
   EXPECT_TRUE(rolls.needs().wheels);
   EXPECT_FALSE(rolls.needs().lidar);
+  EXPECT_FALSE(rolls.needs().may_lack_wheels);
   EXPECT_NE(rolls.Notices()[0].find("no lidar: IMU and wheels"), std::string::npos);
 }
 
