@@ -404,7 +404,7 @@ std::vector<MatchCell> CellMaker::MatchPairs(const MatchMethod& method, const st
   };
   std::string failure;
   const bool is_outside = method.features.empty();
-  if (!std::all_of(pairs.begin(), pairs.end(), is_made)) {
+  if (!StopRequested() && !std::all_of(pairs.begin(), pairs.end(), is_made)) {
     Say("match " + method.key + " on " + folder + "/pairs");
     if (is_outside) failure = OutsideMatchFailure(method, folder);
   }

@@ -32,7 +32,7 @@ DocumentTable ErrorTable(const ReproducePlan& plan, const std::vector<SceneResul
 DocumentTable CostTable(const ReproducePlan& plan, const std::vector<SceneResults>& results,
                         const std::string& planet);
 
-/// The paper's gain over LVI-SAM, theirs and ours.
+/// What learned features gain over others in the same pipeline, the paper's figures beside ours.
 DocumentTable GainTable(const ReproducePlan& plan, const std::vector<SceneResults>& results);
 
 /// Every cell without a result, and why. No rows where there is none.

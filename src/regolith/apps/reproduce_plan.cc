@@ -27,6 +27,8 @@ std::vector<TrackMethod> AllTracks() {
           {"lio", "lio", "ours, lidar and IMU", "lio", "", std::nullopt},
           {"vio", "vio", "ours, mono camera and IMU", "vio", "", std::nullopt},
           {"wheels", "wheels", "ours, wheels and IMU", "wheels", "", std::nullopt},
+          {"orb_slam2_ghost", "ORB-SLAM2 with ghost", "ours: the stereo row with learned features",
+           "orb_slam2", "ghost", std::nullopt},
           {"kiss_icp", "KISS-ICP", "the package kiss-icp as it is (Vizzo et al. 2023)", "", "",
            std::nullopt}};
 }
