@@ -26,8 +26,8 @@ void VisualPlacesOptions::Check() const {
   }
 }
 
-VisualPlaces::VisualPlaces(const VisualPlacesOptions& options, const SE3& T_body_camera)
-    : options_(options), T_body_camera_(T_body_camera), matcher_(options.matcher) {
+VisualPlaces::VisualPlaces(const VisualPlacesOptions& options)
+    : options_(options), matcher_(options.matcher) {
   options.Check();
 }
 
@@ -62,11 +62,14 @@ std::vector<LoopCandidate> VisualPlaces::Propose(size_t end) {
   const PlaceView& newest = places_.back().view;
   std::vector<LoopCandidate> candidates;
   for (const auto& [similarity, index] : MostSimilar(end)) {
-    const auto T_old_new = RelativePose(places_[index].view, newest, options_.min_inliers);
+    const PlaceView& old_view = places_[index].view;
+    const auto T_old_new = RelativeCameraPose(old_view, newest, options_.min_inliers);
     if (!T_old_new) continue;
     LoopCandidate candidate;
+    candidate.source = LoopSource::kImages;
     candidate.old_keyframe = places_[index].keyframe;
-    candidate.guess.T_target_query = T_body_camera_ * *T_old_new * T_body_camera_.Inverse();
+    candidate.guess.T_target_query =
+        old_view.T_body_camera * *T_old_new * newest.T_body_camera.Inverse();
     candidate.guess.position_radius = options_.position_doubt;
     candidate.guess.yaw_radius = options_.yaw_doubt;
     candidate.cost = 1.0 - similarity;
@@ -81,9 +84,9 @@ std::vector<LoopMeasurement> VisualPlaces::Confirmed(size_t end) {
   std::vector<LoopMeasurement> loops;
   for (const auto& [similarity, index] : MostSimilar(end)) {
     const PlaceView& old_view = places_[index].view;
-    const auto T_old_new = RelativePose(old_view, newest.view, options_.confirmed_inliers);
+    const auto T_old_new = RelativeCameraPose(old_view, newest.view, options_.confirmed_inliers);
     if (!T_old_new) continue;
-    const auto T_new_old = RelativePose(newest.view, old_view, options_.confirmed_inliers);
+    const auto T_new_old = RelativeCameraPose(newest.view, old_view, options_.confirmed_inliers);
     if (!T_new_old) continue;
     const SE3 back = T_new_old->Inverse();
     const SE3 difference = T_old_new->Inverse() * back;
@@ -94,8 +97,8 @@ std::vector<LoopMeasurement> VisualPlaces::Confirmed(size_t end) {
     LoopMeasurement loop;
     loop.old_keyframe = places_[index].keyframe;
     loop.new_keyframe = newest.keyframe;
-    loop.T_old_new.T_a_b =
-        T_body_camera_ * Interpolate(*T_old_new, back, 0.5) * T_body_camera_.Inverse();
+    loop.T_old_new.T_a_b = old_view.T_body_camera * Interpolate(*T_old_new, back, 0.5) *
+                           newest.view.T_body_camera.Inverse();
     loop.T_old_new.covariance.diagonal().head<3>().setConstant(options_.rotation_sigma *
                                                                options_.rotation_sigma);
     loop.T_old_new.covariance.diagonal().tail<3>().setConstant(options_.position_sigma *
@@ -105,8 +108,8 @@ std::vector<LoopMeasurement> VisualPlaces::Confirmed(size_t end) {
   return loops;
 }
 
-std::optional<SE3> VisualPlaces::RelativePose(const PlaceView& old_view, const PlaceView& new_view,
-                                              int min_inliers) {
+std::optional<SE3> VisualPlaces::RelativeCameraPose(const PlaceView& old_view,
+                                                    const PlaceView& new_view, int min_inliers) {
   std::vector<FeatureMatch> matches;
   matcher_.Match(old_view.descriptors, new_view.descriptors, &matches);
   std::vector<Eigen::Vector3d> points;  // m, old camera

@@ -22,6 +22,7 @@ struct PlaceView {
   Descriptors descriptors;                ///< of the image's features
   std::vector<Eigen::Vector3d> bearings;  ///< unit, camera frame, one a feature
   std::vector<double> ranges;             ///< m along the bearing, from lidar or window; 0: unknown
+  SE3 T_body_camera;                      ///< of the keyframe's body, when the image was taken
 };
 
 struct VisualPlacesOptions {
@@ -31,8 +32,10 @@ struct VisualPlacesOptions {
   double angle_error = 0.006;   ///< rad, of an inlier
   int iterations = 300;         ///< of RANSAC
   DescriptorMatcherOptions matcher;
-  double position_doubt = 1.0;  ///< m that a pose found may be off by …
-  double yaw_doubt = 0.08;      ///< … and rad
+  /// m that a pose proposed is taken to be off by: far more than it is, so that the lidar sees
+  /// whether the ground fits elsewhere too (LoopVerifierOptions::separation) …
+  double position_doubt = 3.0;
+  double yaw_doubt = 0.08;  ///< … and rad
   /// Of a loop that images alone confirm: features that agree, of either view in the other …
   int confirmed_inliers = 30;
   double confirmed_position = 0.15;  ///< m that the poses of the two directions may differ by …
@@ -48,7 +51,7 @@ struct VisualPlacesOptions {
 /// Lepetit et al. 2009). For Backend::TryLoop.
 class VisualPlaces {
  public:
-  VisualPlaces(const VisualPlacesOptions& options, const SE3& T_body_camera);
+  explicit VisualPlaces(const VisualPlacesOptions& options);
 
   /// Keyframes in increasing order.
   void Add(size_t keyframe, PlaceView view);
@@ -68,11 +71,10 @@ class VisualPlaces {
   /// Indices of the most similar places before `end`, with the similarity.
   std::vector<std::pair<float, size_t>> MostSimilar(size_t end) const;
   /// T_old_new of the cameras; nothing where too few features agree.
-  std::optional<SE3> RelativePose(const PlaceView& old_view, const PlaceView& new_view,
-                                  int min_inliers);
+  std::optional<SE3> RelativeCameraPose(const PlaceView& old_view, const PlaceView& new_view,
+                                        int min_inliers);
 
   VisualPlacesOptions options_;
-  SE3 T_body_camera_;
   DescriptorMatcher matcher_;
   std::vector<Place> places_;
 };
