@@ -93,7 +93,6 @@ TEST(VisualPlaces, FindsThePlaceAndTheWayThere) {
 
 TEST(VisualPlaces, AnotherPlaceMakesNoCandidate) {
   VisualPlacesOptions options;
-  options.min_similarity = -1.0;
   VisualPlaces places(options);
   for (size_t i = 0; i < 20; ++i) places.Add(i, See(Place(i), SE3(), 100 + i));
   places.Add(40, See(Place(50), SE3(), 200));
