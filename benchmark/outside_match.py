@@ -8,7 +8,7 @@ usage: outside_match.py PAIRS --method xfeat|aliked --out DIR
 PAIRS is a folder `pairs/` that `regolith simulate --pairs N` wrote. Of each pair ID, DIR/ID/summary.json has the keys that those of
 `regolith match` have: matches, inliers, known_inliers, correct_inliers, total_ms (median of three). 500 keypoints an image, mutual
 nearest neighbours, outliers rejected by OpenCV's fundamental matrix (MAGSAC, 1 pixel); a match is correct within 3 pixels of the truth,
-and unknown where the pixels around it have none or are torn apart. Needs benchmark/requirements_outside.txt and opencv-python.
+and unknown where the pixels around it have none or are torn apart. Needs benchmark/requirements_outside.txt.
 """
 
 import argparse

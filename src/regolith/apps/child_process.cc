@@ -128,15 +128,17 @@ std::string FailureReason(const ChildResult& result, const std::string& log) {
     return Concatenate("took longer than ", static_cast<int>(result.wall_seconds), " s");
   }
   std::string reason;
+  std::string last;
   std::ifstream stream(log);
   for (std::string line; std::getline(stream, line);) {
     if (line.rfind("error: ", 0) == 0) reason = line.substr(7);
+    if (!line.empty()) last = line;
   }
   if (!reason.empty()) return reason;
   if (result.exit_code > 128) {
     return std::string("ended by a signal: ") + ::strsignal(result.exit_code - 128);
   }
-  return Concatenate("exit code ", result.exit_code);
+  return Concatenate("exit code ", result.exit_code, last.empty() ? "" : ": ", last);
 }
 
 std::string ThisProgram() { return std::filesystem::read_symlink("/proc/self/exe"); }

@@ -25,7 +25,8 @@ struct ChildResult {
 ChildResult RunChild(const std::vector<std::string>& command, const std::string& log,
                      double timeout);
 
-/// Why a command failed: the last line "error: ..." of its log, else how it ended.
+/// Why a command failed: the last line "error: ..." of its log, else how it ended and
+/// the last line that it wrote.
 std::string FailureReason(const ChildResult& result, const std::string& log);
 
 /// The path of the running program.

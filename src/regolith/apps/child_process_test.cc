@@ -45,6 +45,9 @@ TEST_F(ChildProcessTest, SaysWhyACommandFailed) {
   EXPECT_EQ(FailureReason(failed, log_), "rig.yaml: no");
   std::remove(log_.c_str());
   EXPECT_EQ(FailureReason(Shell("exit 7"), log_), "exit code 7");
+  std::remove(log_.c_str());
+  EXPECT_EQ(FailureReason(Shell("echo Traceback:; echo 'ImportError: torch'; echo; exit 1"), log_),
+            "exit code 1: ImportError: torch");
   EXPECT_THAT(FailureReason(Shell("kill -SEGV $$"), log_), HasSubstr("ended by a signal: Segm"));
 }
 

@@ -219,9 +219,13 @@ void AddReproduce(CLI::App& program, std::map<CLI::App*, Command>& commands) {
       ->type_name("S");
   app->add_option("--pairs", arguments->pairs, "Image pairs a drive; 0: no table 1 [4, full: 40]")
       ->type_name("N");
+  app->add_option("--scenarios", arguments->scenarios,
+                  "Other drives than the paper's two experiments, with commas")
+      ->delimiter(',')
+      ->type_name("LIST");
   app->add_option("--methods", arguments->methods,
                   "Rows of table 2, with commas [all]: lego_loam, orb_slam2, lvi_sam, paper, "
-                  "regolith, lio, vio, wheels, kiss_icp")
+                  "regolith, lio, vio, wheels, orb_slam2_ghost, kiss_icp")
       ->delimiter(',')
       ->type_name("LIST");
   app->add_option("--quality", arguments->quality, "Of the simulation: full or draft")

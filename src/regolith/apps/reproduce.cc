@@ -44,11 +44,13 @@ std::string Command(const ReproduceArguments& arguments) {
   if (arguments.seeds) add("--seeds", std::to_string(*arguments.seeds));
   if (arguments.duration) add("--duration", Concatenate(*arguments.duration));
   if (arguments.pairs) add("--pairs", std::to_string(*arguments.pairs));
-  std::string methods;
-  for (const std::string& method : arguments.methods) {
-    methods += (methods.empty() ? "" : ",") + method;
-  }
-  if (!methods.empty()) add("--methods", methods);
+  const auto add_list = [&](const char* option, const std::vector<std::string>& values) {
+    std::string list;
+    for (const std::string& value : values) list += (list.empty() ? "" : ",") + value;
+    if (!list.empty()) add(option, list);
+  };
+  add_list("--scenarios", arguments.scenarios);
+  add_list("--methods", arguments.methods);
   if (arguments.quality != "full") add("--quality", arguments.quality);
   return command + " --threads " + std::to_string(arguments.threads) + " --out " + arguments.out;
 }
@@ -81,7 +83,7 @@ DocumentSection MatchSection(const ReproducePlan& plan, const std::vector<SceneR
       "images to matches, median. The paper's figures are of one pair of its own a planet."};
   for (const bool same_sun : {true, false}) {
     for (const Scene& scene : plan.scenes) {
-      DocumentTable table = MatchTable(plan, results, scene.planet, same_sun);
+      DocumentTable table = MatchTable(plan, results, scene, same_sun);
       if (!table.rows.empty()) section.tables.push_back(std::move(table));
     }
   }
@@ -92,12 +94,12 @@ DocumentSection TrackSection(const ReproducePlan& plan, const std::vector<SceneR
   DocumentSection section;
   section.title = "Table 2: trajectories";
   for (const Scene& scene : plan.scenes) {
-    section.tables.push_back(ErrorTable(plan, results, scene.planet));
+    section.tables.push_back(ErrorTable(plan, results, scene));
   }
   const DocumentTable gain = GainTable(plan, results);
   if (!gain.rows.empty()) section.tables.push_back(gain);
   for (const Scene& scene : plan.scenes) {
-    section.tables.push_back(CostTable(plan, results, scene.planet));
+    section.tables.push_back(CostTable(plan, results, scene));
   }
   return section;
 }

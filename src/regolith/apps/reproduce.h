@@ -10,13 +10,14 @@ namespace regolith {
 
 /// The arguments of `regolith reproduce`.
 struct ReproduceArguments {
-  std::string scale = "short";       ///< short or full
-  std::optional<int> seeds;          ///< 1 to N; short: 1, full: 3
-  std::optional<double> duration;    ///< s of every drive, instead of the scenario's
-  std::optional<int> pairs;          ///< image pairs a scenario and seed
-  std::vector<std::string> methods;  ///< of table 2, by their keys; empty: all
-  std::string quality = "full";      ///< of `simulate`
-  std::string python;                ///< interpreter with the outside packages
+  std::string scale = "short";         ///< short or full
+  std::optional<int> seeds;            ///< 1 to N; short: 1, full: 3
+  std::optional<double> duration;      ///< s of every drive, instead of the scenario's
+  std::optional<int> pairs;            ///< image pairs a scenario and seed
+  std::vector<std::string> scenarios;  ///< instead of the paper's two experiments
+  std::vector<std::string> methods;    ///< of table 2, by their keys; empty: all
+  std::string quality = "full";        ///< of `simulate`
+  std::string python;                  ///< interpreter with the outside packages
   int threads = 2;
   std::string out;
   bool quiet = false;

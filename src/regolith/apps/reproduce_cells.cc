@@ -72,7 +72,7 @@ TrackCell ReadTrack(const fs::path& folder) {
   cell.ape_mean = metrics["ape"]["mean"];
   cell.length = metrics["length_m"];
   cell.drift_percent = MaybeNumber(metrics, "drift_percent");
-  cell.coverage = NumberOr(summary, "coverage", 0.0);
+  cell.coverage = NumberOr(summary, "coverage", NumberOr(metrics, "time_coverage", 0.0));
   cell.recording_seconds = NumberOr(summary, "recording_seconds", 0.0);
   cell.cpu_seconds = NumberOr(summary, "cpu_seconds", 0.0);
   cell.real_time_factor = NumberOr(summary, "real_time_factor", 0.0);

@@ -27,7 +27,7 @@ std::string Spread(const char* format, const std::vector<double>& values) {
   return median + " (" + Text(format, *least) + "–" + Text(format, *most) + ")";
 }
 
-/// The cells of one method on one planet, and the first reason of those that failed.
+/// The cells of one method in one scene, and the first reason of those that failed.
 struct MethodCells {
   std::vector<const TrackCell*> finished;
   size_t count = 0;
@@ -40,11 +40,10 @@ struct MethodCells {
   }
 };
 
-MethodCells CellsOf(const std::vector<SceneResults>& results, const std::string& planet,
-                    size_t method) {
+MethodCells CellsOf(const std::vector<SceneResults>& results, const Scene& scene, size_t method) {
   MethodCells cells;
   for (const SceneResults& result : results) {
-    if (result.scene.planet != planet) continue;
+    if (result.scene.scenario != scene.scenario) continue;
     const TrackCell& cell = result.tracks[method];
     ++cells.count;
     if (cell.failure.empty()) cells.finished.push_back(&cell);
@@ -80,9 +79,9 @@ struct PaperPair {
   std::string mean = "–";
 };
 
-PaperPair PaperOf(const TrackMethod& method, const std::string& planet) {
-  if (!method.paper) return {};
-  const bool is_moon = planet == "Moon";
+PaperPair PaperOf(const TrackMethod& method, const Scene& scene) {
+  if (!method.paper || !(scene.IsMoon() || scene.IsMars())) return {};
+  const bool is_moon = scene.IsMoon();
   return {Text("%.3f", is_moon ? method.paper->moon_rmse : method.paper->mars_rmse),
           Text("%.3f", is_moon ? method.paper->moon_mean : method.paper->mars_mean)};
 }
@@ -102,7 +101,7 @@ std::string QuoteCsv(std::string text) {
 }  // namespace
 
 DocumentTable MatchTable(const ReproducePlan& plan, const std::vector<SceneResults>& results,
-                         const std::string& planet, bool same_sun) {
+                         const Scene& scene, bool same_sun) {
   DocumentTable table;
   table.columns = {"method",  "paper: found", "correct", "s",     "found",
                    "correct", "correct rate", "s",       "result"};
@@ -116,7 +115,7 @@ DocumentTable MatchTable(const ReproducePlan& plan, const std::vector<SceneResul
     int all_correct = 0;
     std::string failure;
     for (const SceneResults& result : results) {
-      if (result.scene.planet != planet) continue;
+      if (result.scene.scenario != scene.scenario) continue;
       for (const MatchCell& cell : result.matches[m]) {
         if (!cell.failure.empty()) failure = cell.failure;
         if (!cell.failure.empty() || cell.same_sun != same_sun) continue;
@@ -133,8 +132,8 @@ DocumentTable MatchTable(const ReproducePlan& plan, const std::vector<SceneResul
       continue;
     }
     pairs = std::max(pairs, found.size());
-    const auto& paper = planet == "Moon" ? method.paper_moon : method.paper_mars;
-    const bool shown = paper && same_sun;
+    const auto& paper = scene.IsMoon() ? method.paper_moon : method.paper_mars;
+    const bool shown = paper && same_sun && (scene.IsMoon() || scene.IsMars());
     table.rows.push_back({{method.label},
                           {shown ? std::to_string(paper->found) : "–"},
                           {shown ? std::to_string(paper->correct) : "–"},
@@ -146,21 +145,22 @@ DocumentTable MatchTable(const ReproducePlan& plan, const std::vector<SceneResul
                           failure.empty() ? DocumentCell{"done"}
                                           : DocumentCell{"in part: " + failure, false, true}});
   }
-  table.caption = planet + Concatenate(", ", pairs, pairs == 1 ? " image pair" : " image pairs",
-                                       same_sun ? " under one sun" : ", the sun elsewhere in one");
+  table.caption =
+      scene.name + Concatenate(", ", pairs, pairs == 1 ? " image pair" : " image pairs",
+                               same_sun ? " under one sun" : ", the sun elsewhere in one");
   return table;
 }
 
 DocumentTable ErrorTable(const ReproducePlan& plan, const std::vector<SceneResults>& results,
-                         const std::string& planet) {
+                         const Scene& scene) {
   DocumentTable table;
   table.columns = {"method",   "paper: RMSE, m", "paper: mean, m", "RMSE, m",   "mean, m",
                    "coverage", "drift, %",       "runs",           "what it is"};
   double length = 0.0;
   for (size_t m = 0; m < plan.tracks.size(); ++m) {
     const TrackMethod& method = plan.tracks[m];
-    const MethodCells cells = CellsOf(results, planet, m);
-    const PaperPair paper = PaperOf(method, planet);
+    const MethodCells cells = CellsOf(results, scene, m);
+    const PaperPair paper = PaperOf(method, scene);
     if (cells.finished.empty()) {
       table.rows.push_back(FailedRow(method.label, table.columns.size(), cells.failure));
       table.rows.back()[1].text = paper.rmse;
@@ -180,14 +180,14 @@ DocumentTable ErrorTable(const ReproducePlan& plan, const std::vector<SceneResul
          {paper.mean},
          {Spread("%.3f", cells.Values([](const TrackCell& cell) { return cell.ape_rmse; }))},
          {Spread("%.3f", cells.Values([](const TrackCell& cell) { return cell.ape_mean; }))},
-         {coverages.empty() ? "–" : Text("%.0f %%", Median(coverages))},
+         {coverages.empty() ? "–" : Text("%.2f %%", Median(coverages))},
          {Spread("%.2f", drifts)},
          {Concatenate(cells.finished.size(), " of ", cells.count)},
          {method.origin}});
   }
   MarkLeast(3, &table);
   MarkLeast(4, &table);
-  table.caption = planet + ": error of the trajectory (APE, aligned by SE(3)), path of " +
+  table.caption = scene.name + ": error of the trajectory (APE, aligned by SE(3)), path of " +
                   Text("%.0f m", length);
   table.notes = {
       "Median over the seeds (least–most). Coverage: share of the stamps with a pose; APE is of "
@@ -198,13 +198,13 @@ DocumentTable ErrorTable(const ReproducePlan& plan, const std::vector<SceneResul
 }
 
 DocumentTable CostTable(const ReproducePlan& plan, const std::vector<SceneResults>& results,
-                        const std::string& planet) {
+                        const Scene& scene) {
   DocumentTable table;
-  table.caption = planet + ": what it costs";
+  table.caption = scene.name + ": what it costs";
   table.columns = {"method", "processor s / s", "real-time factor", "memory, MB", "J / m"};
   bool has_joules = false;
   for (size_t m = 0; m < plan.tracks.size(); ++m) {
-    const MethodCells cells = CellsOf(results, planet, m);
+    const MethodCells cells = CellsOf(results, scene, m);
     if (cells.finished.empty()) continue;
     std::vector<double> load;
     std::vector<double> factors;
@@ -251,14 +251,14 @@ DocumentTable GainTable(const ReproducePlan& plan, const std::vector<SceneResult
     if (base == plan.tracks.size() || better == plan.tracks.size()) continue;
     for (const Scene& scene : plan.scenes) {
       std::vector<DocumentCell> row = {
-          {scene.planet + ": " + comparison.title}, {"–"}, {"–"}, {"–"}, {"–"}};
-      if (comparison.is_of_the_paper) {
-        row[1].text = scene.planet == "Moon" ? "0.723" : "0.054";
-        row[2].text = scene.planet == "Moon" ? "20" : "7";
+          {scene.name + ": " + comparison.title}, {"–"}, {"–"}, {"–"}, {"–"}};
+      if (comparison.is_of_the_paper && (scene.IsMoon() || scene.IsMars())) {
+        row[1].text = scene.IsMoon() ? "0.723" : "0.054";
+        row[2].text = scene.IsMoon() ? "20" : "7";
       }
       const auto mean = [](const TrackCell& cell) { return cell.ape_mean; };
-      const std::vector<double> before = CellsOf(results, scene.planet, base).Values(mean);
-      const std::vector<double> after = CellsOf(results, scene.planet, better).Values(mean);
+      const std::vector<double> before = CellsOf(results, scene, base).Values(mean);
+      const std::vector<double> after = CellsOf(results, scene, better).Values(mean);
       if (!before.empty() && !after.empty()) {
         const double gain = Median(before) - Median(after);
         row[3].text = Text("%.3f", gain);

@@ -19,18 +19,18 @@ struct SceneResults {
   std::vector<std::vector<MatchCell>> matches;  ///< one list a method of the plan
 };
 
-/// Table 1 of one planet: medians over its image pairs under the same sun, or under another. No
+/// Table 1 of one scene: medians over its image pairs under the same sun, or under another. No
 /// rows where there is no such pair.
 DocumentTable MatchTable(const ReproducePlan& plan, const std::vector<SceneResults>& results,
-                         const std::string& planet, bool same_sun);
+                         const Scene& scene, bool same_sun);
 
-/// Table 2 of one planet: medians over the seeds and their spread.
+/// Table 2 of one scene: medians over the seeds and their spread.
 DocumentTable ErrorTable(const ReproducePlan& plan, const std::vector<SceneResults>& results,
-                         const std::string& planet);
+                         const Scene& scene);
 
-/// What a method costs on one planet: processor, memory, energy.
+/// What a method costs in one scene: processor, memory, energy.
 DocumentTable CostTable(const ReproducePlan& plan, const std::vector<SceneResults>& results,
-                        const std::string& planet);
+                        const Scene& scene);
 
 /// What learned features gain over others in the same pipeline, the paper's figures beside ours.
 DocumentTable GainTable(const ReproducePlan& plan, const std::vector<SceneResults>& results);

@@ -58,7 +58,7 @@ std::string TextOf(const DocumentTable& table, size_t row, size_t column) {
 
 TEST(ReproduceDocument, ErrorsAreMediansWithTheirSpread) {
   const ReproducePlan plan = Plan();
-  const DocumentTable table = ErrorTable(plan, Results(plan), "Moon");
+  const DocumentTable table = ErrorTable(plan, Results(plan), plan.scenes[0]);
   ASSERT_EQ(table.rows.size(), 3U);
   EXPECT_EQ(TextOf(table, 0, 1), "18.892");
   EXPECT_EQ(TextOf(table, 0, 3), "2.000 (1.000–3.000)");
@@ -70,26 +70,26 @@ TEST(ReproduceDocument, ErrorsAreMediansWithTheirSpread) {
   EXPECT_EQ(TextOf(table, 2, 1), "3.164");
   EXPECT_THAT(table.rows[2].back().text, HasSubstr("failed: pipeline x does not exist yet"));
   EXPECT_TRUE(table.rows[2].back().is_failed);
-  for (const auto& row : ErrorTable(plan, {}, "Mars").rows) {
+  for (const auto& row : ErrorTable(plan, {}, plan.scenes[1]).rows) {
     EXPECT_EQ(row.back().text, "not made yet");
   }
 }
 
 TEST(ReproduceDocument, MatchesAreCountedApartByTheSun) {
   const ReproducePlan plan = Plan();
-  const DocumentTable same = MatchTable(plan, Results(plan), "Moon", true);
+  const DocumentTable same = MatchTable(plan, Results(plan), plan.scenes[0], true);
   EXPECT_THAT(same.caption, HasSubstr("2 image pairs"));
   EXPECT_EQ(TextOf(same, 0, 4), "15");
   EXPECT_EQ(TextOf(same, 0, 6), "90.0 %");
   EXPECT_EQ(same.rows[1].back().text, "failed: no package");
-  EXPECT_EQ(TextOf(MatchTable(plan, Results(plan), "Moon", false), 0, 4), "30");
-  EXPECT_TRUE(MatchTable(plan, Results(plan), "Mars", true).rows.empty());
+  EXPECT_EQ(TextOf(MatchTable(plan, Results(plan), plan.scenes[0], false), 0, 4), "30");
+  EXPECT_TRUE(MatchTable(plan, Results(plan), plan.scenes[1], true).rows.empty());
 }
 
 TEST(ReproduceDocument, CostsGainAndFailuresAreListed) {
   const ReproducePlan plan = Plan();
   std::vector<SceneResults> results = Results(plan);
-  EXPECT_EQ(TextOf(CostTable(plan, results, "Moon"), 0, 4), "5 (5–5)");
+  EXPECT_EQ(TextOf(CostTable(plan, results, plan.scenes[0]), 0, 4), "5 (5–5)");
   EXPECT_EQ(TextOf(GainTable(plan, results), 0, 3), "–");
   for (SceneResults& result : results) {
     result.tracks[2].failure.clear();
@@ -101,6 +101,13 @@ TEST(ReproduceDocument, CostsGainAndFailuresAreListed) {
   EXPECT_THAT(CellsCsv(plan, results), HasSubstr("lunar_short,2,lvi_sam,,,,,,,,,,,,,\"ended"));
 }
 
+TEST(ReproduceDocument, ThePapersFiguresStandBesideItsExperimentsOnly) {
+  ReproduceArguments arguments;
+  arguments.scenarios = {"flat"};
+  const ReproducePlan plan = MakePlan(arguments);
+  for (const auto& row : ErrorTable(plan, {}, plan.scenes[0]).rows) EXPECT_EQ(row[1].text, "–");
+}
+
 TEST(ReproducePlan, RefusesWhatItDoesNotKnow) {
   ReproduceArguments arguments;
   arguments.scale = "huge";
@@ -108,6 +115,12 @@ TEST(ReproducePlan, RefusesWhatItDoesNotKnow) {
   arguments.scale = "full";
   EXPECT_EQ(MakePlan(arguments).seeds.size(), 3U);
   EXPECT_EQ(MakePlan(arguments).scenes[0].scenario, "lunar");
+  arguments.scenarios = {"flat", "mars"};
+  EXPECT_EQ(MakePlan(arguments).scenes[0].name, "flat");
+  EXPECT_EQ(MakePlan(arguments).scenes[1].name, "Mars");
+  arguments.scenarios = {"flat", "venus"};
+  EXPECT_THROW(MakePlan(arguments), InputError);
+  arguments.scenarios.clear();
   arguments.methods = {"magic"};
   EXPECT_THROW(MakePlan(arguments), InputError);
   arguments.methods.clear();

@@ -59,16 +59,10 @@ void DrawPair(const fs::path& pair, const std::vector<Eigen::Vector2f>& first_po
   WriteFile(file.string(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-struct FigureNumbers {
-  const char* planet;
-  const char* pair;
-  const char* matches;
-};
-
-constexpr FigureNumbers kNumbers[] = {{"Moon", "8", "10"}, {"Mars", "9", "11"}};
-
-const FigureNumbers& NumbersOf(const std::string& planet) {
-  return planet == "Moon" ? kNumbers[0] : kNumbers[1];
+/// "Figure 8: ", where the paper has that figure.
+std::string Numbered(const Scene& scene, const char* moon, const char* mars) {
+  if (!scene.IsMoon() && !scene.IsMars()) return "";
+  return std::string("Figure ") + (scene.IsMoon() ? moon : mars) + ": ";
 }
 
 /// Figures 1, 2, 8 to 11 of one scene; `sections` holds the three sections that they belong to.
@@ -78,32 +72,32 @@ void AddMatchFigures(const CellMaker& maker, const SceneResults& result,
   const std::string id = ShownPair(folder);
   if (id.empty()) return;
   const fs::path out = maker.out();
-  const std::string& planet = result.scene.planet;
+  const std::string& scene = result.scene.name;
   const fs::path pair = folder / "pairs" / id;
   fs::create_directories(out / "figures");
-  const std::string pair_file = "figures/pair_" + planet + ".png";
-  DrawPair(pair, {}, {}, planet, out / pair_file);
+  const std::string pair_file = "figures/pair_" + scene + ".png";
+  DrawPair(pair, {}, {}, scene, out / pair_file);
   (*sections)[1].figures.push_back(
-      {pair_file, std::string("Figure ") + NumbersOf(planet).pair + ": image pair, " + planet});
+      {pair_file, Numbered(result.scene, "8", "9") + "image pair, " + scene});
   for (const MatchMethod& method : maker.plan().matches) {
     const fs::path made = folder / method.key / id;
     if (!fs::exists(made / "match.png")) continue;
     const bool is_classic = method.key == "st_lk" || method.key == "orb";
     if (is_classic) {
-      const std::string file = "figures/keypoints_" + planet + "_" + method.key + ".png";
+      const std::string file = "figures/keypoints_" + scene + "_" + method.key + ".png";
       DrawPair(pair, ReadKeypoints(made / "keypoints_1.csv"),
                ReadKeypoints(made / "keypoints_2.csv"), method.features, out / file);
       (*sections)[0].figures.push_back(
-          {file, "Figure 1: points found, " + method.label + ", " + planet});
+          {file, "Figure 1: points found, " + method.label + ", " + scene});
     }
-    const std::string file = "figures/matches_" + planet + "_" + method.key + ".png";
+    const std::string file = "figures/matches_" + scene + "_" + method.key + ".png";
     fs::copy_file(made / "match.png", out / file, fs::copy_options::overwrite_existing);
     if (method.key == "orb") {
       (*sections)[0].figures.push_back(
-          {file, "Figure 2: matches and errors (red), " + method.label + ", " + planet});
+          {file, "Figure 2: matches and errors (red), " + method.label + ", " + scene});
     } else {
-      (*sections)[2].figures.push_back({file, std::string("Figure ") + NumbersOf(planet).matches +
-                                                  ": " + method.label + ", " + planet});
+      (*sections)[2].figures.push_back(
+          {file, Numbered(result.scene, "10", "11") + method.label + ", " + scene});
     }
   }
 }
@@ -111,9 +105,12 @@ void AddMatchFigures(const CellMaker& maker, const SceneResults& result,
 /// Figures 12 and 13 of one scene.
 DocumentSection TrackFigures(const CellMaker& maker, const SceneResults& result) {
   DocumentSection section;
-  const std::string& planet = result.scene.planet;
-  const char* part = planet == "Moon" ? "b" : "a";
-  section.title = std::string("Figures 12 and 13 (") + part + "): " + planet;
+  const Scene& scene = result.scene;
+  const bool is_of_the_paper = scene.IsMoon() || scene.IsMars();
+  section.title =
+      (is_of_the_paper ? std::string("Figures 12 and 13 (") + (scene.IsMoon() ? "b" : "a") + "): "
+                       : std::string("Trajectories: ")) +
+      scene.name;
   const fs::path folder = maker.SceneFolder(result.scene, result.seed);
   const fs::path truth_file = folder / "ground_truth.tum";
   if (!fs::exists(truth_file)) return section;
@@ -134,14 +131,14 @@ DocumentSection TrackFigures(const CellMaker& maker, const SceneResults& result)
   if (evaluations.empty()) return section;
   std::vector<FigureEstimate> estimates;
   for (size_t i = 0; i < names.size(); ++i) estimates.push_back({names[i], &evaluations[i], {}});
-  const std::string place = "figures/" + planet;
+  const std::string place = "figures/" + scene.name;
   fs::create_directories(fs::path(maker.out()) / place);
   DrawEvaluation(maker.out() + "/" + place, estimates);
-  const std::string number = std::string(" (") + part + "): ";
-  section.figures = {{place + "/trajectory.png", "Figure 12" + number + "trajectories from above"},
-                     {place + "/ape.png", "Figure 13" + number + "error over time"},
-                     {place + "/ape_box.png", "error, as box plots"},
-                     {place + "/track_error.png", "tracks, coloured by their error"}};
+  section.figures = {
+      {place + "/trajectory.png", Numbered(scene, "12 (b)", "12 (a)") + "trajectories from above"},
+      {place + "/ape.png", Numbered(scene, "13 (b)", "13 (a)") + "error over time"},
+      {place + "/ape_box.png", "error, as box plots"},
+      {place + "/track_error.png", "tracks, coloured by their error"}};
   return section;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "regolith/config/install_paths.h"
 #include "regolith/core/check.h"
 #include "regolith/core/error.h"
 
@@ -55,6 +56,25 @@ void CheckRange(const std::string& option, double value, double least, double mo
   throw InputError(option, Concatenate("is ", value, "; expected ", least, " to ", most));
 }
 
+/// Scenarios by name; those of `experiments` keep what they are called there.
+std::vector<Scene> NamedScenes(const std::vector<std::string>& scenarios,
+                               const std::vector<Scene>& experiments) {
+  const std::vector<std::string> known = ConfigNames("scenarios");
+  std::vector<Scene> scenes;
+  for (const std::string& scenario : scenarios) {
+    if (std::find(known.begin(), known.end(), scenario) == known.end()) {
+      std::string names;
+      for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+      throw InputError("--scenarios " + scenario, "is not one of: " + names);
+    }
+    const auto experiment =
+        std::find_if(experiments.begin(), experiments.end(),
+                     [&](const Scene& one) { return one.scenario == scenario; });
+    scenes.push_back(experiment != experiments.end() ? *experiment : Scene{scenario, scenario});
+  }
+  return scenes;
+}
+
 void KeepMethods(const std::vector<std::string>& keys, std::vector<TrackMethod>* methods) {
   std::string known;
   for (const TrackMethod& method : *methods) known += (known.empty() ? "" : ", ") + method.key;
@@ -85,6 +105,7 @@ ReproducePlan MakePlan(const ReproduceArguments& arguments) {
   plan.scale = arguments.scale;
   plan.scenes = is_full ? std::vector<Scene>{{"Moon", "lunar"}, {"Mars", "mars"}}
                         : std::vector<Scene>{{"Moon", "lunar_short"}, {"Mars", "mars_short"}};
+  if (!arguments.scenarios.empty()) plan.scenes = NamedScenes(arguments.scenarios, plan.scenes);
   const int seeds = arguments.seeds.value_or(is_full ? 3 : 1);
   CheckRange("--seeds", seeds, 1, 1000);
   for (int seed = 1; seed <= seeds; ++seed) plan.seeds.push_back(static_cast<uint64_t>(seed));

@@ -47,8 +47,11 @@ struct MatchMethod {
 };
 
 struct Scene {
-  std::string planet;    ///< "Moon" or "Mars"
+  std::string name;      ///< "Moon" or "Mars", the paper's experiments; else the scenario's
   std::string scenario;  ///< name in config/scenarios
+
+  bool IsMoon() const { return name == "Moon"; }
+  bool IsMars() const { return name == "Mars"; }
 };
 
 /// All that a reproduction makes.
@@ -65,7 +68,7 @@ struct ReproducePlan {
   double simulate_timeout = 0.0;  ///< s for one recording
 };
 
-/// Throws InputError for an unknown scale, method or a number out of range.
+/// Throws InputError for an unknown scale, scenario, method or a number out of range.
 ReproducePlan MakePlan(const ReproduceArguments& arguments);
 
 /// What cells of a folder must agree in, as text: an interrupted reproduction goes on only with

@@ -64,6 +64,18 @@ InertialFilter::InertialFilter(TimeNs time, const RestReport& first_samples, dou
   covariance_(kWheelSlip, kWheelSlip) = std::pow(options.wheels.slip_sigma, 2);
 }
 
+void InertialFilter::MoveInto(const SE3& T_world_imu, const Eigen::Vector3d& v_world_imu,
+                              double velocity_sigma) {
+  const Eigen::Matrix3d turn =
+      (T_world_imu.rotation * state_.T_world_imu.rotation.conjugate()).toRotationMatrix();
+  state_.T_world_imu = T_world_imu;
+  state_.v_world_imu = v_world_imu;
+  Diagonal<kVelocity>(covariance_).setConstant(velocity_sigma * velocity_sigma);
+  gravity_world_ = turn * gravity_world_;
+  const Eigen::Matrix3d gravity = covariance_.block<3, 3>(kGravity, kGravity);
+  covariance_.block<3, 3>(kGravity, kGravity) = turn * gravity * turn.transpose();
+}
+
 void InertialFilter::Propagate(const ImuSample& from, const ImuSample& to) {
   const double dt = SecondsBetween(from.time, to.time);
   if (dt <= 0.0) return;

@@ -27,6 +27,10 @@ class InertialFilter {
   InertialFilter(TimeNs time, const RestReport& first_samples, double gravity,
                  const ImuNoise& noise, const InertialFilterOptions& options);
 
+  /// Restates a start in a world that is there already: pose and velocity (1 σ, m/s) are known in
+  /// it, and gravity lies where the first samples felt it.
+  void MoveInto(const SE3& T_world_imu, const Eigen::Vector3d& v_world_imu, double velocity_sigma);
+
   const NavState& state() const { return state_; }
   const Eigen::Vector3d& gravity_world() const { return gravity_world_; }
   /// Share by which the wheels say more than the way that was gone.

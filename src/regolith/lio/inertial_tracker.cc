@@ -11,6 +11,8 @@ namespace regolith {
 namespace {
 
 constexpr double kEarthGravity = 9.81;
+// Of a velocity that two scans tell, 1 σ.
+constexpr double kScanVelocity = 0.3;  // m/s
 
 }  // namespace
 
@@ -51,6 +53,36 @@ void InertialTracker::TryToStart(bool all) {
   if (state_ != State::kWaiting || samples_.size() < 2) return;
   const double span = SecondsBetween(samples_.front().time, samples_.back().time);
   if (span < options_.initialization_window && !all) return;
+  const std::optional<RestReport> report = FirstSamples();
+  if (!report) return;
+  if (!report->at_rest) {
+    start_notice_ = "the recording does not start at rest (" + report->reason +
+                    "): the first attitude, velocity and biases are rough";
+  }
+  filter_.emplace(samples_.front().time, *report, rig_.gravity, rig_.imu->noise, options_.filter);
+  state_ = State::kRunning;
+}
+
+bool InertialTracker::Join(const StampedPose& pose, const Eigen::Vector3d& v_world_imu) {
+  if (state_ != State::kWaiting || samples_.empty()) return false;
+  const TimeNs needed = AddSeconds(samples_.back().time, -options_.initialization_window);
+  if (samples_.front().time > std::min(needed, pose.time) || samples_.back().time < pose.time) {
+    return false;
+  }
+  while (samples_[1].time <= std::min(needed, pose.time)) samples_.erase(samples_.begin());
+  std::optional<RestReport> report = FirstSamples();
+  if (!report) return false;
+  report->at_rest = false;  // a steady drive is as still as rest is
+  filter_.emplace(pose.time, *report, rig_.gravity, rig_.imu->noise, options_.filter);
+  filter_->MoveInto(pose.T_world_body, v_world_imu, kScanVelocity);
+  state_ = State::kRunning;
+  return true;
+}
+
+/// What the samples say of gravity and rest. Nothing, and `state_` kUnusable, where they come too
+/// slowly; throws InputError where they cannot be what the rig says.
+std::optional<RestReport> InertialTracker::FirstSamples() {
+  const double span = SecondsBetween(samples_.front().time, samples_.back().time);
   const double rate = static_cast<double>(samples_.size() - 1) / span;
   if (rate < options_.min_imu_rate) {
     if (!options_.lidar) {
@@ -61,16 +93,11 @@ void InertialTracker::TryToStart(bool all) {
     state_ = State::kUnusable;
     start_notice_ = Concatenate("the IMU comes at ", rate, " Hz, below ", options_.min_imu_rate,
                                 " Hz: it is not used, and the world is not level");
-    return;
+    return std::nullopt;
   }
-  const RestReport report = DetectRest(samples_, rig_.gravity, options_.rest);
+  RestReport report = DetectRest(samples_, rig_.gravity, options_.rest);
   CheckGravity(report.statistics);
-  if (!report.at_rest) {
-    start_notice_ = "the recording does not start at rest (" + report.reason +
-                    "): the first attitude, velocity and biases are rough";
-  }
-  filter_.emplace(samples_.front().time, report, rig_.gravity, rig_.imu->noise, options_.filter);
-  state_ = State::kRunning;
+  return report;
 }
 
 void InertialTracker::Step(const ImuSample& from, const ImuSample& to) {

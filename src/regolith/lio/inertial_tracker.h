@@ -34,6 +34,10 @@ class InertialTracker {
   /// where the IMU's units or the rig's gravity cannot be right.
   void TryToStart(bool all);
 
+  /// Starts the filter in the midst of a drive, at a pose that was known without it and with the
+  /// velocity there (m/s, world). False until enough samples are there, from before it and after.
+  bool Join(const StampedPose& pose, const Eigen::Vector3d& v_world_imu);
+
   bool has_samples() const { return !samples_.empty(); }
   TimeNs last_sample_time() const { return samples_.back().time; }  ///< there is one
   InertialFilter& filter() { return *filter_; }                     ///< while running
@@ -62,6 +66,7 @@ class InertialTracker {
   };
 
   void CheckGravity(const ImuStatistics& statistics) const;
+  std::optional<RestReport> FirstSamples();
   void Step(const ImuSample& from, const ImuSample& to);
 
   LidarOdometryOptions options_;

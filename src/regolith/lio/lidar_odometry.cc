@@ -55,7 +55,7 @@ void LidarOdometryOptions::Check() const {
 
 LidarOdometry::LidarOdometry(const LidarOdometryOptions& options, const RigCalibration& rig,
                              ThreadPool* threads)
-    : options_(options), threads_(threads), drift_(options.drift) {
+    : options_(options), rig_(rig), threads_(threads), drift_(options.drift) {
   options.Check();
   VoxelMapOptions level = options.map;
   const int levels = options.features ? 0 : options.map_levels;
@@ -70,8 +70,11 @@ LidarOdometry::LidarOdometry(const LidarOdometryOptions& options, const RigCalib
 }
 
 std::vector<ScanEstimate> LidarOdometry::AddImu(const ImuSample& sample) {
-  if (!inertial_) return {};
-  inertial_->AddImu(sample);
+  if (inertial_) {
+    inertial_->AddImu(sample);
+  } else if (silent_imu_) {
+    TakeUpImu(sample);
+  }
   return EstimateReady(false);
 }
 
@@ -133,7 +136,19 @@ void LidarOdometry::GiveUpImu(bool all) {
     return;
   }
   unusable_imu_ = std::exchange(inertial_, {});
-  imu_is_silent_ = is_silent;
+  imu_was_silent_ = is_silent;
+  if (is_silent) silent_imu_.emplace(options_, rig_);
+}
+
+/// One that was given up and speaks again: it goes on from the last pose without it.
+void LidarOdometry::TakeUpImu(const ImuSample& sample) {
+  silent_imu_->AddImu(sample);
+  if (!last_) return;
+  const Eigen::Vector3d v_world = last_->T_world_body.rotation * velocity_body_.tail<3>();
+  if (!silent_imu_->Join(*last_, v_world)) return;
+  inertial_ = std::exchange(silent_imu_, {});
+  for (const WheelOdometry& sample_of_wheels : wheels_) inertial_->AddWheels(sample_of_wheels);
+  wheels_.clear();
 }
 
 /// Whether the next one is to be estimated at all; counts those that are not.
@@ -326,10 +341,11 @@ std::vector<std::string> LidarOdometry::Notices() const {
   std::vector<std::string> notices;
   if (inertial_) notices = inertial_->Notices();
   if (unusable_imu_) notices = unusable_imu_->Notices();
-  if (imu_is_silent_)
-    notices.push_back(
-        "the IMU fell silent before it had started: scans go without it, and the world is not "
-        "level");
+  if (imu_was_silent_) {
+    notices.push_back(std::string("the IMU was silent when it should have started: ") +
+                      (inertial_ ? "the first scans went" : "scans go") +
+                      " without it, and the world is not level");
+  }
   const auto add = [&](size_t count, const char* what) {
     if (count > 0) notices.push_back(Concatenate(count, what));
   };

@@ -55,6 +55,7 @@ class LidarOdometry : public ScanOdometry {
 
   std::vector<ScanEstimate> EstimateReady(bool all);
   void GiveUpImu(bool all);
+  void TakeUpImu(const ImuSample& sample);
   bool CanEstimate(const Waiting& waiting);
   bool IsReady(const LidarScan& scan) const;
   ScanEstimate EstimateInertial(const LidarScan& scan);
@@ -69,6 +70,7 @@ class LidarOdometry : public ScanOdometry {
                                   const SE3& T_world_body);
 
   LidarOdometryOptions options_;
+  RigCalibration rig_;
   SE3 T_body_lidar_;
   std::optional<SE3> T_body_base_;  ///< of the wheels, where they are used
   ThreadPool* threads_;
@@ -79,6 +81,7 @@ class LidarOdometry : public ScanOdometry {
   std::deque<Waiting> waiting_;
   std::optional<InertialTracker> inertial_;      ///< nothing without an IMU
   std::optional<InertialTracker> unusable_imu_;  ///< too slow an IMU, for its notice
+  std::optional<InertialTracker> silent_imu_;    ///< that was given up and may come back
 
   // Without an IMU.
   std::optional<StampedPose> last_;            ///< at the middle of the last sweep
@@ -86,7 +89,7 @@ class LidarOdometry : public ScanOdometry {
   std::vector<WheelOdometry> wheels_;          ///< from `last_` on
 
   bool wheels_came_ = false;
-  bool imu_is_silent_ = false;
+  bool imu_was_silent_ = false;
   std::optional<TimeNs> last_stamp_;
   size_t scans_ = 0;
   size_t invalid_points_ = 0;

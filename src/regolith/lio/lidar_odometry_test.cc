@@ -192,6 +192,19 @@ TEST(LidarOdometry, AnImuThatNeverComesIsGivenUp) {
   EXPECT_NE(odometry.Notices()[0].find("silent"), std::string::npos) << odometry.Notices()[0];
 }
 
+TEST(LidarOdometry, AnImuThatComesLateIsTakenUpInMidDrive) {
+  ThreadPool threads(2);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  const auto estimates = Drive(odometry, 10.0, true, 5.0);
+  ASSERT_EQ(estimates.size(), 100U);
+  EXPECT_EQ(estimates[48].leader, "lidar");
+  EXPECT_FALSE(estimates[48].inertial.has_value());
+  EXPECT_EQ(estimates[70].leader, "lidar+imu");
+  EXPECT_LT(WorstError(estimates), 0.15);
+  ASSERT_EQ(odometry.Notices().size(), 1U);
+  EXPECT_NE(odometry.Notices()[0].find("first scans"), std::string::npos) << odometry.Notices()[0];
+}
+
 TEST(LidarOdometry, PosesAreGivenInATimeWithoutScans) {
   ThreadPool threads(1);
   LidarOdometry odometry({}, Rig(true), &threads);
