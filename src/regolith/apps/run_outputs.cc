@@ -131,17 +131,18 @@ std::string StatusTable(const std::vector<FrameReport>& frames) {
 
 std::string LoopTable(const Backend& backend) {
   std::string text =
-      "old_time_s,new_time_s,outcome,agreement,runner_up,matches,scale_m,x_m,y_m,z_m,qx,qy,qz,qw\n";
+      "old_time_s,new_time_s,outcome,agreement,runner_up,matches,scale_m,x_m,y_m,z_m,qx,qy,qz,qw,"
+      "proposed_by\n";
   for (const LoopRecord& loop : backend.loops()) {
     const LoopVerdict& verdict = loop.verdict;
     const SE3& T_old_new = verdict.T_target_query.T_a_b;
     char buffer[320];
-    std::snprintf(buffer, sizeof buffer,
-                  ",%s,%.3f,%.3f,%.3f,%.4f,%.4f,%.4f,%.4f,%.6f,%.6f,%.6f,%.6f\n",
-                  LoopOutcomeName(verdict.outcome), verdict.agreement, verdict.relief.runner_up,
-                  verdict.matches, verdict.scale, T_old_new.translation.x(),
-                  T_old_new.translation.y(), T_old_new.translation.z(), T_old_new.rotation.x(),
-                  T_old_new.rotation.y(), T_old_new.rotation.z(), T_old_new.rotation.w());
+    std::snprintf(
+        buffer, sizeof buffer, ",%s,%.3f,%.3f,%.3f,%.4f,%.4f,%.4f,%.4f,%.6f,%.6f,%.6f,%.6f,%s\n",
+        LoopOutcomeName(verdict.outcome), verdict.agreement, verdict.relief.runner_up,
+        verdict.matches, verdict.scale, T_old_new.translation.x(), T_old_new.translation.y(),
+        T_old_new.translation.z(), T_old_new.rotation.x(), T_old_new.rotation.y(),
+        T_old_new.rotation.z(), T_old_new.rotation.w(), LoopSourceName(loop.source));
     text += SecondsText(backend.keyframes()[loop.old_keyframe].time) + "," +
             SecondsText(backend.keyframes()[loop.new_keyframe].time) + buffer;
   }

@@ -75,14 +75,18 @@ bool Backend::FindLoops() {
 bool Backend::TryLoop(const LoopCandidate& candidate, size_t new_keyframe) {
   REGOLITH_CHECK(candidate.old_keyframe < new_keyframe && new_keyframe < keyframes_.size(), "loop ",
                  candidate.old_keyframe, " to ", new_keyframe, " of ", keyframes_.size());
-  if (!Verify(candidate, new_keyframe)) return false;
+  LoopCandidate standing = candidate;
+  standing.old_keyframe = graph_.standing(candidate.old_keyframe);
+  standing.guess.T_target_query =
+      Between(standing.old_keyframe, candidate.old_keyframe) * candidate.guess.T_target_query;
+  if (!Verify(standing, new_keyframe)) return false;
   Update();
   return true;
 }
 
 bool Backend::Verify(const LoopCandidate& candidate, size_t new_keyframe) {
   const size_t old = candidate.old_keyframe;
-  LoopRecord record{old, new_keyframe, {}};
+  LoopRecord record{old, new_keyframe, candidate.source, {}};
   record.verdict = verifier_.Verify(
       keyframes_.Submap(new_keyframe, old + 1, new_keyframe + 1, graph_),
       keyframes_.Submap(old, 0, new_keyframe, graph_), candidate.guess, graph_.pose(old).rotation);
@@ -92,7 +96,7 @@ bool Backend::Verify(const LoopCandidate& candidate, size_t new_keyframe) {
 void Backend::AddLoop(const LoopMeasurement& loop) {
   REGOLITH_CHECK(loop.old_keyframe < loop.new_keyframe && loop.new_keyframe < keyframes_.size(),
                  "loop ", loop.old_keyframe, " to ", loop.new_keyframe, " of ", keyframes_.size());
-  LoopRecord record{loop.old_keyframe, loop.new_keyframe, {}};
+  LoopRecord record{loop.old_keyframe, loop.new_keyframe, LoopSource::kImages, {}};
   record.verdict.outcome = LoopOutcome::kAccepted;
   record.verdict.T_target_query = loop.T_old_new;
   if (Enter(std::move(record))) Update();
@@ -198,6 +202,11 @@ SE3 Backend::T_world_odom() const {
   const size_t count = keyframes_.size();
   if (count == 0) return SE3();
   return graph_.pose(count - 1) * odometry_.T_odom_body(count - 1).Inverse();
+}
+
+bool Backend::HasLoopAtNewest() const {
+  return !confirmed_.empty() &&
+         loops_[confirmed_.back().record].new_keyframe + 1 == keyframes_.size();
 }
 
 size_t Backend::loops_accepted() const {

@@ -30,6 +30,7 @@ struct KeyframeInput {
 struct LoopRecord {
   size_t old_keyframe = 0;
   size_t new_keyframe = 0;
+  LoopSource source = LoopSource::kPosition;
   LoopVerdict verdict;
 };
 
@@ -40,12 +41,15 @@ class Backend {
  public:
   Backend(const BackendOptions& options, ThreadPool* threads);
 
+  const BackendOptions& options() const { return options_; }
+
   /// Adds a keyframe, looks for loops at it, and brings the graph into agreement where one was
   /// accepted. Times increase.
   std::vector<StageTime> Add(const KeyframeInput& input);
 
   /// Tries a loop that was proposed from elsewhere, by vision for instance: it has to pass the same
-  /// tests as the back end's own. Whether it did; it may still wait for others to confirm it.
+  /// tests as the back end's own. Whether it did; it may still wait for others to confirm it. An
+  /// old keyframe that is merged stands for the one that it was merged into.
   bool TryLoop(const LoopCandidate& candidate, size_t new_keyframe);
   /// Takes a loop that was measured and confirmed elsewhere: it still has to be what the odometry
   /// could have driven, and others have to support it before it is used.
@@ -55,6 +59,8 @@ class Backend {
   /// T_world_odom at the newest keyframe.
   SE3 T_world_odom() const;
 
+  /// Whether a loop of the newest keyframe has passed the tests.
+  bool HasLoopAtNewest() const;
   const KeyframeStore& keyframes() const { return keyframes_; }
   SE3 T_world_body(size_t keyframe) const { return graph_.pose(keyframe); }
   /// All loops that were proposed, in their order.

@@ -9,94 +9,11 @@
 #include <memory>
 
 #include "regolith/backend/keyframe_selector.h"
-#include "regolith/backend/test_ground_internal.h"
+#include "regolith/backend/test_drive_internal.h"
 #include "regolith/core/check.h"
 
 namespace regolith {
 namespace {
-
-/// One scan of a drive: where the rover is, and on which ground.
-struct Moment {
-  SE3 T_world_body;
-  const TestGround* ground = nullptr;
-};
-
-struct Odometry {
-  double yaw_drift = 0.0;        ///< rad a keyframe
-  double scale = 1.0;            ///< of each step's length
-  double rotation_sigma = 1e-3;  ///< rad a keyframe, as the odometry states it
-  double position_sigma = 0.01;  ///< m a keyframe, likewise
-};
-
-std::vector<Moment> Laps(const TestGround& ground, int laps) {
-  std::vector<Moment> drive;
-  for (int lap = 0; lap < laps; ++lap) {
-    for (const SE3& pose : OvalLap(ground, 0.6 * lap, lap % 2 == 1)) {
-      drive.push_back({pose, &ground});
-    }
-  }
-  return drive;
-}
-
-/// Runs a back end over a drive with an odometry that drifts as told.
-class Driver {
- public:
-  explicit Driver(const BackendOptions& options = BackendOptions())
-      : threads_(2), selector_(options.keyframes), backend_(options, &threads_) {}
-
-  void Drive(const std::vector<Moment>& drive, const Odometry& odometry) {
-    Vector6d step_variances;
-    step_variances << Eigen::Vector3d::Constant(std::pow(odometry.rotation_sigma, 2)),
-        Eigen::Vector3d::Constant(std::pow(odometry.position_sigma, 2));
-    for (const Moment& moment : drive) {
-      if (!truth_.empty()) {
-        SE3 step = truth_.back().Inverse() * moment.T_world_body;
-        step.rotation = step.rotation * ExpSo3({0.0, 0.0, odometry.yaw_drift});
-        step.translation *= odometry.scale;
-        const Matrix6d adjoint = AdjointSe3(step.Inverse());
-        covariance_ = adjoint * covariance_ * adjoint.transpose();
-        covariance_.diagonal() += step_variances;
-        T_odom_body_ = T_odom_body_ * step;
-      } else {
-        T_odom_body_ = moment.T_world_body;
-      }
-      truth_.push_back(moment.T_world_body);
-      KeyframeInput input;
-      input.time = FromSeconds(3.0 * static_cast<double>(truth_.size()));
-      input.T_odom_body = T_odom_body_;
-      input.covariance = ExpToPlusCovariance(covariance_, T_odom_body_);
-      input.is_level = true;
-      input.points_body = moment.ground->Scan(moment.T_world_body, truth_.size());
-      odometry_.Append({input.time, T_odom_body_});
-      EXPECT_TRUE(selector_.Select(input.time, input.T_odom_body));
-      backend_.Add(input);
-    }
-  }
-
-  /// Largest distance (m) of a keyframe from where it was.
-  double Error(const Trajectory& trajectory) const {
-    double error = 0.0;
-    for (size_t i = 0; i < truth_.size(); ++i) {
-      const SE3& pose = trajectory.poses()[i].T_world_body;
-      error = std::max(error, (pose.translation - truth_[i].translation).norm());
-    }
-    return error;
-  }
-
-  Backend& backend() { return backend_; }
-  const Trajectory& odometry() const { return odometry_; }
-  Trajectory corrected() const { return backend_.Corrected(odometry_); }
-  const std::vector<SE3>& truth() const { return truth_; }
-
- private:
-  ThreadPool threads_;
-  KeyframeSelector selector_;
-  Backend backend_;
-  std::vector<SE3> truth_;
-  Trajectory odometry_;
-  SE3 T_odom_body_;
-  Matrix6d covariance_ = Matrix6d::Zero();
-};
 
 Odometry Drifting() {
   Odometry odometry;
@@ -145,6 +62,32 @@ TEST(Backend, OnExploredGroundNeitherGraphNorPointsGrow) {
     with_points += driver.backend().keyframes()[i].points_body.empty() ? 0 : 1;
   }
   EXPECT_EQ(with_points, driver.backend().graph().active_node_count());
+}
+
+TEST(Backend, AMergedKeyframeStandsForTheOneThatItWasMergedInto) {
+  const TestGround ground(MoonGround(), 3);
+  Driver driver;
+  driver.Drive(Laps(ground, 2), Odometry());
+  Backend& backend = driver.backend();
+  const size_t newest = backend.keyframes().size() - 1;
+  size_t merged = newest;
+  while (merged > 0 && !backend.graph().is_merged(merged)) --merged;
+  ASSERT_GT(merged, 30U);
+  // As if the newest stood there: the guess is right, but its place was left three keyframes ago.
+  size_t near = 0;
+  for (size_t i = 34; i <= merged; ++i) {
+    const auto distance = [&](size_t k) {
+      return (driver.truth()[k].translation - driver.truth()[newest].translation).norm();
+    };
+    if (backend.graph().is_merged(i) && (near == 0 || distance(i) < distance(near))) near = i;
+  }
+  LoopCandidate candidate;
+  candidate.old_keyframe = near;
+  candidate.guess.T_target_query = driver.truth()[near].Inverse() * driver.truth()[newest];
+  backend.TryLoop(candidate, newest);
+  EXPECT_EQ(backend.loops().back().old_keyframe, backend.graph().standing(near));
+  EXPECT_LT(backend.loops().back().old_keyframe, 34U);
+  EXPECT_NE(backend.loops().back().verdict.outcome, LoopOutcome::kTooLittleOverlap);
 }
 
 TEST(Backend, ARunIsTheSameEachTime) {

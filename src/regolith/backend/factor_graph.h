@@ -73,6 +73,10 @@ class FactorGraph {
   /// Nodes that a solve optimises, and edges between them.
   size_t active_node_count() const { return nodes_.size() - merged_count_; }
   size_t edge_count() const { return edges_.size(); }
+  /// The node that a node was merged into; itself where it was not.
+  NodeId standing(NodeId node) const {
+    return nodes_.at(node).is_merged ? nodes_.at(node).anchor : node;
+  }
   bool is_merged(NodeId node) const { return nodes_[node].is_merged; }
 
  private:

@@ -22,6 +22,21 @@ Doubt DoubtOf(const UncertainPose& way, double inflation) {
 
 }  // namespace
 
+const char* LoopSourceName(LoopSource source) {
+  return source == LoopSource::kPosition ? "position" : "images";
+}
+
+size_t EndOfOld(const KeyframeStore& keyframes, const LoopSearchOptions& options) {
+  const size_t newest = keyframes.size() - 1;
+  size_t end = 0;
+  while (end < newest &&
+         SecondsBetween(keyframes[end].time, keyframes[newest].time) >= options.min_age &&
+         keyframes[newest].way - keyframes[end].way >= options.min_way) {
+    ++end;
+  }
+  return end;
+}
+
 std::vector<LoopCandidate> LoopDetector::Propose(const KeyframeStore& keyframes,
                                                  const FactorGraph& graph,
                                                  const OdometryChain& odometry,
@@ -30,11 +45,8 @@ std::vector<LoopCandidate> LoopDetector::Propose(const KeyframeStore& keyframes,
   std::vector<LoopCandidate> candidates;
   const size_t newest = keyframes.size() - 1;
   const SE3 T_newest_world = graph.pose(newest).Inverse();
-  for (size_t old = 0; old < newest; ++old) {
-    if (SecondsBetween(keyframes[old].time, keyframes[newest].time) < options_.min_age ||
-        keyframes[newest].way - keyframes[old].way < options_.min_way) {
-      break;
-    }
+  const size_t end = EndOfOld(keyframes, options_);
+  for (size_t old = 0; old < end; ++old) {
     if (keyframes[old].points_body.empty()) continue;
     const SE3 T_newest_old = T_newest_world * graph.pose(old);
     const double distance = T_newest_old.translation.norm();

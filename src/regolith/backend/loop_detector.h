@@ -10,12 +10,23 @@
 
 namespace regolith {
 
+/// What proposed a loop.
+enum class LoopSource {
+  kPosition,  ///< where both are known to be, and the shape of the ground
+  kImages,    ///< what a camera saw
+};
+const char* LoopSourceName(LoopSource source);
+
 /// A proposal that the newest keyframe saw an old one's ground.
 struct LoopCandidate {
+  LoopSource source = LoopSource::kPosition;
   size_t old_keyframe = 0;
   LoopGuess guess;  ///< target: the old one
   double cost = 0.0;
 };
+
+/// The keyframes before this one are old enough for loops with the newest.
+size_t EndOfOld(const KeyframeStore& keyframes, const LoopSearchOptions& options);
 
 /// Proposes old keyframes near the newest one, as far as is known where both are: the nearer and
 /// the more like it in shape, the better.

@@ -14,6 +14,7 @@ namespace regolith {
 
 void VisualPlacesOptions::Check() const {
   matcher.Check();
+  REGOLITH_CHECK(matched_places >= 1, "matched_places=", matched_places);
   REGOLITH_CHECK(max_places >= 1, "max_places=", max_places);
   REGOLITH_CHECK(min_inliers >= 6, "min_inliers=", min_inliers);
   REGOLITH_CHECK(angle_error > 0.0, "angle_error=", angle_error);
@@ -26,8 +27,8 @@ void VisualPlacesOptions::Check() const {
   }
 }
 
-VisualPlaces::VisualPlaces(const VisualPlacesOptions& options, const SE3& T_body_camera)
-    : options_(options), T_body_camera_(T_body_camera), matcher_(options.matcher) {
+VisualPlaces::VisualPlaces(const VisualPlacesOptions& options)
+    : options_(options), matcher_(options.matcher) {
   options.Check();
 }
 
@@ -40,36 +41,49 @@ void VisualPlaces::Add(size_t keyframe, PlaceView view) {
   places_.push_back({keyframe, std::move(view)});
 }
 
-std::vector<std::pair<float, size_t>> VisualPlaces::MostSimilar(size_t end) const {
+std::vector<std::pair<float, size_t>> VisualPlaces::MostSimilar(size_t end, double min_similarity,
+                                                                int count) const {
   std::vector<std::pair<float, size_t>> similar;
   const Place& newest = places_.back();
   for (size_t i = 0; i + 1 < places_.size() && places_[i].keyframe < end; ++i) {
     const float similarity = Similarity(places_[i].view.global, newest.view.global);
-    if (similarity >= static_cast<float>(options_.min_similarity)) {
-      similar.emplace_back(similarity, i);
-    }
+    if (similarity >= static_cast<float>(min_similarity)) similar.emplace_back(similarity, i);
   }
   std::stable_sort(similar.begin(), similar.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  if (similar.size() > static_cast<size_t>(options_.max_places)) {
-    similar.resize(static_cast<size_t>(options_.max_places));
-  }
+  similar.resize(std::min(similar.size(), static_cast<size_t>(count)));
   return similar;
 }
 
+// Which of the similar images are of one place is seen by their matches: on explored ground of
+// `mars` the right one was among the first nine by its global descriptor, mostly not the first.
 std::vector<LoopCandidate> VisualPlaces::Propose(size_t end) {
   if (places_.empty()) return {};
+  constexpr double kAnySimilarity = -2.0;
   const PlaceView& newest = places_.back().view;
+  std::vector<std::pair<Correspondences, size_t>> matched;
+  for (const auto& [similarity, index] :
+       MostSimilar(end, kAnySimilarity, options_.matched_places)) {
+    Correspondences correspondences = Match(places_[index].view, newest);
+    // RANSAC on mere chance matches would be the dearest part of it.
+    if (correspondences.points.size() < static_cast<size_t>(2 * options_.min_inliers)) continue;
+    matched.emplace_back(std::move(correspondences), index);
+  }
+  std::stable_sort(matched.begin(), matched.end(), [](const auto& a, const auto& b) {
+    return a.first.points.size() > b.first.points.size();
+  });
+  matched.resize(std::min(matched.size(), static_cast<size_t>(options_.max_places)));
   std::vector<LoopCandidate> candidates;
-  for (const auto& [similarity, index] : MostSimilar(end)) {
-    const auto T_old_new = RelativePose(places_[index].view, newest, options_.min_inliers);
+  for (const auto& [correspondences, index] : matched) {
+    const auto T_old_new = RelativeCameraPose(correspondences, options_.min_inliers);
     if (!T_old_new) continue;
     LoopCandidate candidate;
+    candidate.source = LoopSource::kImages;
     candidate.old_keyframe = places_[index].keyframe;
-    candidate.guess.T_target_query = T_body_camera_ * *T_old_new * T_body_camera_.Inverse();
+    candidate.guess.T_target_query =
+        places_[index].view.T_body_camera * *T_old_new * newest.T_body_camera.Inverse();
     candidate.guess.position_radius = options_.position_doubt;
     candidate.guess.yaw_radius = options_.yaw_doubt;
-    candidate.cost = 1.0 - similarity;
     candidates.push_back(candidate);
   }
   return candidates;
@@ -79,11 +93,14 @@ std::vector<LoopMeasurement> VisualPlaces::Confirmed(size_t end) {
   if (places_.empty()) return {};
   const Place& newest = places_.back();
   std::vector<LoopMeasurement> loops;
-  for (const auto& [similarity, index] : MostSimilar(end)) {
+  for (const auto& [similarity, index] :
+       MostSimilar(end, options_.min_similarity, options_.max_places)) {
     const PlaceView& old_view = places_[index].view;
-    const auto T_old_new = RelativePose(old_view, newest.view, options_.confirmed_inliers);
+    const auto T_old_new =
+        RelativeCameraPose(Match(old_view, newest.view), options_.confirmed_inliers);
     if (!T_old_new) continue;
-    const auto T_new_old = RelativePose(newest.view, old_view, options_.confirmed_inliers);
+    const auto T_new_old =
+        RelativeCameraPose(Match(newest.view, old_view), options_.confirmed_inliers);
     if (!T_new_old) continue;
     const SE3 back = T_new_old->Inverse();
     const SE3 difference = T_old_new->Inverse() * back;
@@ -94,8 +111,8 @@ std::vector<LoopMeasurement> VisualPlaces::Confirmed(size_t end) {
     LoopMeasurement loop;
     loop.old_keyframe = places_[index].keyframe;
     loop.new_keyframe = newest.keyframe;
-    loop.T_old_new.T_a_b =
-        T_body_camera_ * Interpolate(*T_old_new, back, 0.5) * T_body_camera_.Inverse();
+    loop.T_old_new.T_a_b = old_view.T_body_camera * Interpolate(*T_old_new, back, 0.5) *
+                           newest.view.T_body_camera.Inverse();
     loop.T_old_new.covariance.diagonal().head<3>().setConstant(options_.rotation_sigma *
                                                                options_.rotation_sigma);
     loop.T_old_new.covariance.diagonal().tail<3>().setConstant(options_.position_sigma *
@@ -105,23 +122,27 @@ std::vector<LoopMeasurement> VisualPlaces::Confirmed(size_t end) {
   return loops;
 }
 
-std::optional<SE3> VisualPlaces::RelativePose(const PlaceView& old_view, const PlaceView& new_view,
-                                              int min_inliers) {
+VisualPlaces::Correspondences VisualPlaces::Match(const PlaceView& old_view,
+                                                  const PlaceView& new_view) {
   std::vector<FeatureMatch> matches;
   matcher_.Match(old_view.descriptors, new_view.descriptors, &matches);
-  std::vector<Eigen::Vector3d> points;  // m, old camera
-  std::vector<Eigen::Vector3d> bearings;
+  Correspondences correspondences;
   for (const FeatureMatch& match : matches) {
     const auto first = static_cast<size_t>(match.first);
     if (old_view.ranges[first] <= 0.0) continue;
-    points.push_back(old_view.ranges[first] * old_view.bearings[first]);
-    bearings.push_back(new_view.bearings[static_cast<size_t>(match.second)]);
+    correspondences.points.push_back(old_view.ranges[first] * old_view.bearings[first]);
+    correspondences.bearings.push_back(new_view.bearings[static_cast<size_t>(match.second)]);
   }
+  return correspondences;
+}
+
+std::optional<SE3> VisualPlaces::RelativeCameraPose(const Correspondences& correspondences,
+                                                    int min_inliers) const {
   AbsolutePoseOptions ransac;
   ransac.iterations = options_.iterations;
   ransac.angle_error = options_.angle_error;
   ransac.min_inliers = min_inliers;
-  const auto pose = EstimateAbsolutePose(points, bearings, ransac);
+  const auto pose = EstimateAbsolutePose(correspondences.points, correspondences.bearings, ransac);
   if (!pose) return std::nullopt;
   return pose->T_camera_points.Inverse();
 }

@@ -22,19 +22,24 @@ struct PlaceView {
   Descriptors descriptors;                ///< of the image's features
   std::vector<Eigen::Vector3d> bearings;  ///< unit, camera frame, one a feature
   std::vector<double> ranges;             ///< m along the bearing, from lidar or window; 0: unknown
+  SE3 T_body_camera;                      ///< of the keyframe's body, when the image was taken
 };
 
 struct VisualPlacesOptions {
-  double min_similarity = 0.2;  ///< of the global descriptors
-  int max_places = 3;           ///< the most similar, whose features are matched
-  int min_inliers = 15;         ///< features that agree on one pose
-  double angle_error = 0.006;   ///< rad, of an inlier
-  int iterations = 300;         ///< of RANSAC
+  int matched_places = 16;     ///< the most similar, whose features are matched for a proposal
+  int max_places = 3;          ///< that a pose is sought of: those with the most matches
+  int min_inliers = 12;        ///< features that agree on the pose of a proposal
+  double angle_error = 0.006;  ///< rad, of an inlier
+  int iterations = 300;        ///< of RANSAC
   DescriptorMatcherOptions matcher;
-  double position_doubt = 1.0;  ///< m that a pose found may be off by …
-  double yaw_doubt = 0.08;      ///< … and rad
-  /// Of a loop that images alone confirm: features that agree, of either view in the other …
-  int confirmed_inliers = 30;
+  /// m that a pose proposed is taken to be off by: far more than it is, so that the lidar sees
+  /// whether the ground fits elsewhere too (LoopVerifierOptions::separation) …
+  double position_doubt = 3.0;
+  double yaw_doubt = 0.08;  ///< … and rad
+  /// Of a loop that images alone confirm, among the `max_places` most similar: the least similarity
+  /// of the global descriptors …
+  double min_similarity = 0.2;
+  int confirmed_inliers = 30;        ///< … features that agree, of either view in the other …
   double confirmed_position = 0.15;  ///< m that the poses of the two directions may differ by …
   double confirmed_rotation = 0.02;  ///< … and rad
   double position_sigma = 0.05;      ///< m, 1 σ of such a loop …
@@ -43,12 +48,12 @@ struct VisualPlacesOptions {
   void Check() const;
 };
 
-/// Proposes loops by what the camera saw: the most similar images by their global descriptor, their
-/// features matched, and the pose from which the old one's points are seen so (EPnP in RANSAC;
-/// Lepetit et al. 2009). For Backend::TryLoop.
+/// Proposes loops by what the camera saw: of the most similar images by their global descriptor
+/// those with the most matched features, and the pose from which the old one's points are seen so
+/// (EPnP in RANSAC; Lepetit et al. 2009). For Backend::TryLoop.
 class VisualPlaces {
  public:
-  VisualPlaces(const VisualPlacesOptions& options, const SE3& T_body_camera);
+  explicit VisualPlaces(const VisualPlacesOptions& options);
 
   /// Keyframes in increasing order.
   void Add(size_t keyframe, PlaceView view);
@@ -65,14 +70,22 @@ class VisualPlaces {
     size_t keyframe = 0;
     PlaceView view;
   };
-  /// Indices of the most similar places before `end`, with the similarity.
-  std::vector<std::pair<float, size_t>> MostSimilar(size_t end) const;
+  /// Features that an old view and a new one share.
+  struct Correspondences {
+    std::vector<Eigen::Vector3d> points;    ///< m, old camera
+    std::vector<Eigen::Vector3d> bearings;  ///< new camera
+  };
+
+  /// Indices of the most similar places before `end`, at most `count`, with the similarity.
+  std::vector<std::pair<float, size_t>> MostSimilar(size_t end, double min_similarity,
+                                                    int count) const;
+  /// Of features whose range is known in the old view.
+  Correspondences Match(const PlaceView& old_view, const PlaceView& new_view);
   /// T_old_new of the cameras; nothing where too few features agree.
-  std::optional<SE3> RelativePose(const PlaceView& old_view, const PlaceView& new_view,
-                                  int min_inliers);
+  std::optional<SE3> RelativeCameraPose(const Correspondences& correspondences,
+                                        int min_inliers) const;
 
   VisualPlacesOptions options_;
-  SE3 T_body_camera_;
   DescriptorMatcher matcher_;
   std::vector<Place> places_;
 };

@@ -41,10 +41,18 @@ Eigen::MatrixXf Vocabulary() {
   return centroids;
 }
 
+// The camera looks along the body's x axis.
+SE3 Mounting() {
+  Eigen::Matrix3d R_body_camera;
+  R_body_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  return {Eigen::Quaterniond(R_body_camera), {0.4, 0.1, 0.9}};
+}
+
 /// A view of a place from a camera; descriptors have noise, and a third of the features are new.
 PlaceView See(const Place& place, const SE3& T_place_camera, uint64_t seed) {
   Random random(seed);
   PlaceView view;
+  view.T_body_camera = Mounting();
   view.descriptors.type = DescriptorType::kFloat;
   view.descriptors.dimension = kDimension;
   const SE3 T_camera_place = T_place_camera.Inverse();
@@ -67,15 +75,8 @@ PlaceView See(const Place& place, const SE3& T_place_camera, uint64_t seed) {
   return view;
 }
 
-// The camera looks along the body's x axis.
-SE3 Mounting() {
-  Eigen::Matrix3d R_body_camera;
-  R_body_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  return {Eigen::Quaterniond(R_body_camera), {0.4, 0.1, 0.9}};
-}
-
 TEST(VisualPlaces, FindsThePlaceAndTheWayThere) {
-  VisualPlaces places(VisualPlacesOptions(), Mounting());
+  VisualPlaces places{VisualPlacesOptions()};
   for (size_t i = 0; i < 20; ++i) places.Add(i, See(Place(i), SE3(), 100 + i));
   const SE3 T_old_new_camera(ExpSo3({0.02, 0.1, -0.03}), {0.6, -0.1, 0.8});
   places.Add(40, See(Place(7), T_old_new_camera, 200));
@@ -92,15 +93,14 @@ TEST(VisualPlaces, FindsThePlaceAndTheWayThere) {
 
 TEST(VisualPlaces, AnotherPlaceMakesNoCandidate) {
   VisualPlacesOptions options;
-  options.min_similarity = -1.0;
-  VisualPlaces places(options, Mounting());
+  VisualPlaces places(options);
   for (size_t i = 0; i < 20; ++i) places.Add(i, See(Place(i), SE3(), 100 + i));
   places.Add(40, See(Place(50), SE3(), 200));
   EXPECT_TRUE(places.Propose(20).empty());
 }
 
 TEST(VisualPlaces, WhatBothDirectionsSayIsConfirmed) {
-  VisualPlaces places(VisualPlacesOptions(), Mounting());
+  VisualPlaces places{VisualPlacesOptions()};
   for (size_t i = 0; i < 20; ++i) places.Add(i, See(Place(i), SE3(), 100 + i));
   const SE3 T_old_new_camera(ExpSo3({0.02, 0.1, -0.03}), {0.6, -0.1, 0.8});
   places.Add(40, See(Place(7), T_old_new_camera, 200));
@@ -116,7 +116,7 @@ TEST(VisualPlaces, WhatBothDirectionsSayIsConfirmed) {
 }
 
 TEST(VisualPlaces, DirectionsThatDisagreeConfirmNothing) {
-  VisualPlaces places(VisualPlacesOptions(), Mounting());
+  VisualPlaces places{VisualPlacesOptions()};
   PlaceView old_view = See(Place(7), SE3(), 107);
   // The old distances are wrong: the way there would be another than the way back.
   for (double& range : old_view.ranges) range *= 1.5;

@@ -70,6 +70,7 @@ void Fields(Archive& archive, WheelVelocityOptions& wheels) {
   archive("slip_sigma", wheels.slip_sigma);
   archive("slip_walk", wheels.slip_walk);
   archive("velocity_sigma", wheels.velocity_sigma);
+  archive("placed_inflation", wheels.placed_inflation);
   archive("lateral_share", wheels.lateral_share);
   archive("vertical_share", wheels.vertical_share);
   archive("turn_share", wheels.turn_share);
@@ -235,6 +236,13 @@ void OdometryField(Archive& archive, OdometryKind& odometry) {
 }
 
 template <typename Archive>
+void Fields(Archive& archive, VisualLoopOptions& visual_loops) {
+  archive("enabled", visual_loops.enabled);
+  archive("max_keypoints", visual_loops.max_keypoints);
+  archive("scan_distance", visual_loops.scan_distance);
+}
+
+template <typename Archive>
 void Fields(Archive& archive, PipelineOptions& options) {
   archive("pipeline", options.name);
   archive("tracked_camera", options.tracked_camera);
@@ -248,6 +256,7 @@ void Fields(Archive& archive, PipelineOptions& options) {
   archive("visual_velocity_sigma", options.visual_velocity_sigma);
   archive("stereo", options.stereo);
   archive("places", options.places);
+  archive("visual_loops", options.visual_loops);
   archive("feedback_delay", options.feedback_delay);
   archive("lidar_silence", options.lidar_silence);
   archive("supervisor", options.supervisor);
@@ -270,6 +279,7 @@ PipelineOptions LoadPipeline(const YamlDocument& document) {
     options.lidar_depth.Check();
     options.stereo.Check();
     options.places.Check();
+    options.visual_loops.Check();
     options.supervisor.Check();
     options.backend.Check();
     options.map.Check();

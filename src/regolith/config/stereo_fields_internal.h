@@ -81,7 +81,7 @@ void Fields(Archive& archive, StereoOptions& stereo) {
 
 template <typename Archive>
 void Fields(Archive& archive, VisualPlacesOptions& places) {
-  archive("min_similarity", places.min_similarity);
+  archive("matched_places", places.matched_places);
   archive("max_places", places.max_places);
   archive("min_inliers", places.min_inliers);
   archive("angle_error", places.angle_error);
@@ -89,6 +89,7 @@ void Fields(Archive& archive, VisualPlacesOptions& places) {
   archive("matcher", places.matcher);
   archive("position_doubt", places.position_doubt);
   archive("yaw_doubt", places.yaw_doubt);
+  archive("min_similarity", places.min_similarity);
   archive("confirmed_inliers", places.confirmed_inliers);
   archive("confirmed_position", places.confirmed_position);
   archive("confirmed_rotation", places.confirmed_rotation);

@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "regolith/stereo/descriptor_similarity.h"
+#include "regolith/features/descriptor_similarity.h"
 
 namespace regolith {
 namespace {

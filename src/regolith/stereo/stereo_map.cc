@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "regolith/core/check.h"
-#include "regolith/stereo/descriptor_similarity.h"
+#include "regolith/features/descriptor_similarity.h"
 
 namespace regolith {
 namespace {

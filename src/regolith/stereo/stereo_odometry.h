@@ -9,9 +9,9 @@
 #include <Eigen/Core>
 
 #include "regolith/core/stopwatch.h"
+#include "regolith/features/place_index.h"
 #include "regolith/stereo/frame_tracker.h"
 #include "regolith/stereo/local_mapper.h"
-#include "regolith/stereo/place_index.h"
 #include "regolith/stereo/stereo_map.h"
 #include "regolith/stereo/stereo_options.h"
 

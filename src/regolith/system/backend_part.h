@@ -4,10 +4,13 @@
 
 #include <map>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "regolith/backend/backend.h"
+#include "regolith/backend/visual_loops.h"
 #include "regolith/core/serial_worker.h"
+#include "regolith/system/place_observer.h"
 
 namespace regolith {
 
@@ -18,7 +21,10 @@ class BackendPart {
   /// `capacity`: keyframes that may wait; 0: no thread of its own.
   BackendPart(const BackendOptions& options, ThreadPool* threads, size_t capacity);
 
-  void Add(KeyframeInput keyframe);
+  /// From now on loops are looked for by what the camera saw at keyframes, too. Before the first.
+  void LookForLoops(const VisualPlacesOptions& options, std::unique_ptr<PlaceObserver> observer);
+
+  void Add(KeyframeInput keyframe, std::optional<KeyframeSight> sight);
   /// Whether the keyframe of that number is worked off.
   bool HasDone(size_t keyframe) const { return worker_.done() > keyframe; }
   /// What that took, once.
@@ -33,7 +39,11 @@ class BackendPart {
   const Backend& backend() const { return backend_; }
 
  private:
+  std::vector<StageTime> AddSight(const KeyframeSight& sight, const SE3& T_odom_body);
+
   Backend backend_;
+  std::unique_ptr<PlaceObserver> observer_;    ///< null where images propose no loops
+  std::unique_ptr<VisualLoops> visual_loops_;  ///< likewise
   mutable std::mutex mutex_;
   std::map<size_t, std::vector<StageTime>> stages_;
   SE3 T_map_odom_;

@@ -64,6 +64,8 @@ std::vector<FrameReport> LidarPart::Process(const SensorEvent& event) {
     ++scans_;
     last_stamp_ = scan->stamp;
     take(odometry_->AddScan(*scan));
+  } else if (const auto* frame = std::get_if<CameraFrame>(&event)) {
+    if (sights_) sights_->AddImage(*frame);
   }
   return reports;
 }
@@ -85,7 +87,10 @@ std::vector<FrameReport> LidarPart::BridgeSilence(TimeNs now) {
 
 std::vector<FrameReport> LidarPart::Report(std::vector<ScanEstimate> estimates) {
   std::vector<FrameReport> reports;
-  for (ScanEstimate& estimate : estimates) {
+  for (ScanEstimate& made : estimates) {
+    estimates_.push_back(std::make_shared<const ScanEstimate>(std::move(made)));
+    const ScanEstimate& estimate = *estimates_.back();
+    if (sights_) sights_->AddEstimate(estimates_.back());
     Stopwatch stopwatch;
     if (!estimate.has_scan) ++asked_;
     trajectory_.Append({estimate.stamp, estimate.T_world_body});
@@ -96,7 +101,6 @@ std::vector<FrameReport> LidarPart::Report(std::vector<ScanEstimate> estimates) 
     for (const StageTime& stage : stopwatch.stages()) report.stages.push_back(stage);
     report.keyframe = SendKeyframe(estimate);
     report.completed = std::chrono::steady_clock::now();
-    estimates_.push_back(std::make_shared<const ScanEstimate>(std::move(estimate)));
   }
   return reports;
 }
@@ -113,7 +117,7 @@ std::optional<size_t> LidarPart::SendKeyframe(const ScanEstimate& estimate) {
   for (const MapPoint& point : estimate.points) {
     keyframe.points_body.push_back(T_body_world * point.position.cast<double>());
   }
-  keyframes_(std::move(keyframe));
+  keyframes_(std::move(keyframe), sights_ ? sights_->Take() : std::nullopt);
   return keyframe_count_++;
 }
 

@@ -16,6 +16,7 @@
 #include "regolith/sensor/rig_calibration.h"
 #include "regolith/sensor/sensor_event.h"
 #include "regolith/system/frame_report.h"
+#include "regolith/system/keyframe_sight.h"
 #include "regolith/system/map_builder.h"
 #include "regolith/system/pipeline_options.h"
 
@@ -25,12 +26,17 @@ namespace regolith {
 /// Where scans stay away, it goes on at their rate with what IMU, wheels and camera tell.
 class LidarPart {
  public:
-  using KeyframeSink = std::function<void(KeyframeInput)>;
+  using KeyframeSink = std::function<void(KeyframeInput, std::optional<KeyframeSight>)>;
 
   /// `keyframes` is called for every keyframe, in order; may be empty. The rig has what
   /// `options.odometry` needs.
   LidarPart(const PipelineOptions& options, const RigCalibration& rig, ThreadPool* threads,
             KeyframeSink keyframes);
+
+  /// From now on keyframes come with what the camera saw, and need its images to be processed too.
+  void CollectSights(const std::string& camera, double scan_distance) {
+    sights_.emplace(camera, scan_distance);
+  }
 
   /// What other subsystems tell, before the measurement at its time.
   void AddVelocity(const BodyVelocity& velocity) { odometry_->AddVelocity(velocity); }
@@ -60,6 +66,7 @@ class LidarPart {
   std::unique_ptr<ScanOdometry> odometry_;
   KeyframeSink keyframes_;
   KeyframeSelector selector_;
+  std::optional<SightCollector> sights_;
   size_t keyframe_count_ = 0;
   MapBuilder map_;
   Trajectory trajectory_;

@@ -14,6 +14,7 @@
 #include "regolith/stereo/stereo_options.h"
 #include "regolith/system/map_builder.h"
 #include "regolith/system/supervisor.h"
+#include "regolith/system/visual_loop_options.h"
 #include "regolith/vio/lidar_depth_options.h"
 #include "regolith/vio/vio_options.h"
 
@@ -42,7 +43,8 @@ struct PipelineOptions {
   /// m/s, 1 σ of a velocity that visual odometry tells the lidar's; 0: it does not tell.
   double visual_velocity_sigma = 0.05;
   StereoOptions stereo;
-  VisualPlacesOptions places;  ///< loops that images confirm (kStereo)
+  VisualPlacesOptions places;      ///< loops that images propose, or confirm (kStereo)
+  VisualLoopOptions visual_loops;  ///< of a camera beside a lidar (kLio)
   /// s after which the camera's side sees what the lidar's found (kLio): so far the one may be
   /// ahead of the other, and so much later the results come at most.
   double feedback_delay = 0.3;

@@ -128,6 +128,10 @@ bool HasBackend(const PipelineOptions& options) {
   return options.backend.enabled && options.odometry == OdometryKind::kLio && options.lio.lidar;
 }
 
+bool FindsLoopsByImages(const PipelineOptions& options) {
+  return options.backend.close_loops && options.visual_loops.enabled;
+}
+
 /// The entries of measurements before `end`, in their order.
 template <typename Value>
 std::vector<Value> TakeBefore(size_t end, std::deque<std::pair<size_t, Value>>* entries) {
@@ -170,8 +174,17 @@ SlamSystem::SlamSystem(const PipelineOptions& options, const RigCalibration& rig
   }
   if (options_.odometry != OdometryKind::kVio) {
     LidarPart::KeyframeSink sink;
-    if (backend_) sink = [this](KeyframeInput keyframe) { backend_->Add(std::move(keyframe)); };
+    if (backend_) {
+      sink = [this](KeyframeInput keyframe, std::optional<KeyframeSight> sight) {
+        backend_->Add(std::move(keyframe), std::move(sight));
+      };
+    }
     lidar_ = std::make_unique<LidarPart>(options_, rig, threads, std::move(sink));
+  }
+  if (backend_ && !needs_.cameras.empty() && FindsLoopsByImages(options_)) {
+    backend_->LookForLoops(options_.places,
+                           std::make_unique<PlaceObserver>(options_, rig, camera_mask));
+    lidar_->CollectSights(options_.tracked_camera, options_.visual_loops.scan_distance);
   }
   if (!needs_.cameras.empty()) {
     visual_ =

@@ -43,12 +43,10 @@ StereoPipeline::StereoPipeline(const PipelineOptions& options, const RigCalibrat
       T_body_camera_(rig.cameras.at(left_camera_).T_imu_camera * frontend_.T_left_rectified()),
       odometry_(options.stereo, frontend_.camera(), T_body_camera_),
       options_(options.stereo),
-      selector_(options.backend.keyframes),
-      min_loop_age_(options.backend.search.min_age),
-      min_loop_way_(options.backend.search.min_way) {
+      selector_(options.backend.keyframes) {
   if (!options.backend.enabled || !options.backend.close_loops) return;
   backend_ = std::make_unique<Backend>(WithoutLidar(options.backend), threads);
-  places_ = std::make_unique<VisualPlaces>(options.places, T_body_camera_);
+  places_ = std::make_unique<VisualPlaces>(options.places);
 }
 
 std::vector<StereoReport> StereoPipeline::AddImage(const CameraFrame& frame) {
@@ -173,14 +171,10 @@ void StereoPipeline::AddPlace(StereoPlace place) {
   backend_->Add(input);
 
   const KeyframeStore& keyframes = backend_->keyframes();
-  const size_t newest = keyframes.size() - 1;
-  places_->Add(newest, {std::move(place.global), std::move(place.descriptors),
-                        std::move(place.bearings), std::move(place.ranges)});
-  size_t end = 0;
-  while (end < newest && SecondsBetween(keyframes[end].time, place.stamp) >= min_loop_age_ &&
-         keyframes[newest].way - keyframes[end].way >= min_loop_way_) {
-    ++end;
-  }
+  places_->Add(keyframes.size() - 1,
+               {std::move(place.global), std::move(place.descriptors), std::move(place.bearings),
+                std::move(place.ranges), T_body_camera_});
+  const size_t end = EndOfOld(keyframes, backend_->options().search);
   for (const LoopMeasurement& loop : places_->Confirmed(end)) backend_->AddLoop(loop);
 }
 

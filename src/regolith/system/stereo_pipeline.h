@@ -94,8 +94,6 @@ class StereoPipeline {
   KeyframeSelector selector_;
   std::unique_ptr<VisualPlaces> places_;
   UncertainPose drift_;  ///< T_odom_body of the back end's last keyframe
-  double min_loop_age_;  ///< s
-  double min_loop_way_;  ///< m
   std::optional<CameraFrame> waiting_left_;
   std::optional<CameraFrame> waiting_right_;
   std::deque<TimeNs> stamps_;  ///< asked for, not answered yet

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Regolith authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "regolith/stereo/descriptor_similarity.h"
+#include "regolith/features/descriptor_similarity.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Regolith authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "regolith/stereo/place_index.h"
+#include "regolith/features/place_index.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Regolith authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "regolith/stereo/place_index.h"
+#include "regolith/features/place_index.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "regolith/core/check.h"
-#include "regolith/stereo/descriptor_similarity.h"
+#include "regolith/features/descriptor_similarity.h"
 
 namespace regolith {
 namespace {
