@@ -18,7 +18,8 @@ void VisualLoops::Add(PlaceView view, Backend* backend) {
     waiting.global = index_.Global(static_cast<int64_t>(keyframe));
     places_.Add(keyframe, std::move(waiting));
   }
-  if (backend->HasLoopAtNewest()) return;
+  // Where the lidar is silent it cannot confirm anything.
+  if (backend->HasLoopAtNewest() || backend->keyframes()[newest].points_body.empty()) return;
   const LoopSearchOptions& search = backend->options().search;
   std::vector<LoopCandidate> candidates = places_.Propose(EndOfOld(backend->keyframes(), search));
   candidates.resize(std::min(candidates.size(), static_cast<size_t>(search.max_candidates)));

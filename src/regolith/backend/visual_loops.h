@@ -21,7 +21,8 @@ class VisualLoops {
   explicit VisualLoops(const VisualPlacesOptions& options) : places_(options) {}
 
   /// What the camera saw at the newest keyframe; its global descriptor is made here. Where the back
-  /// end has found a loop there by itself, the view is only remembered.
+  /// end has found a loop there by itself, or has no scan to confirm one, the view is only
+  /// remembered.
   void Add(PlaceView view, Backend* backend);
 
  private:
