@@ -77,11 +77,12 @@ class Stereo(ProgramTest):
         return folder, write_pair(folder, change)
 
     def test_two_eyes_follow_the_lunar_traverse(self):
-        for features, bound in (("orb", 0.2), ("ghost", 0.3)):
+        for features in ("orb", "ghost"):
             _, summary, health = self.run_stereo(RECORDING, "--features", features)
             metrics = evaluate(RECORDING / "ground_truth.tum", self.folder / "run/trajectory.tum")
-            self.assertLess(metrics["percent_of_distance"], bound, features)
-            self.assertLess(metrics["drift_percent"], 1.0, features)
+            # 0.06 and 0.28 with ghost, before its keypoints were aligned.
+            self.assertLess(metrics["percent_of_distance"], 0.04, features)
+            self.assertLess(metrics["drift_percent"], 0.2, features)
             self.assertGreaterEqual(summary["coverage"], 0.99, features)
             self.assertEqual(set(health), {"good"})
             first = read_tum(self.folder / "run/trajectory.tum")[0]

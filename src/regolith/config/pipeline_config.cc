@@ -70,6 +70,7 @@ void Fields(Archive& archive, WheelVelocityOptions& wheels) {
   archive("slip_sigma", wheels.slip_sigma);
   archive("slip_walk", wheels.slip_walk);
   archive("velocity_sigma", wheels.velocity_sigma);
+  archive("placed_inflation", wheels.placed_inflation);
   archive("lateral_share", wheels.lateral_share);
   archive("vertical_share", wheels.vertical_share);
   archive("turn_share", wheels.turn_share);

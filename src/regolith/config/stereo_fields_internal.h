@@ -33,6 +33,20 @@ void Fields(Archive& archive, LandmarkSearchOptions& search) {
 }
 
 template <typename Archive>
+void Fields(Archive& archive, PatchAlignmentOptions& alignment) {
+  archive("enabled", alignment.enabled);
+  archive("min_correlation", alignment.min_correlation);
+  archive("max_step", alignment.max_step);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, SightingNoise& noise) {
+  archive("pixel", noise.pixel);
+  archive("aligned_pixel", noise.aligned_pixel);
+  archive("disparity", noise.disparity);
+}
+
+template <typename Archive>
 void Fields(Archive& archive, LocalAdjustmentOptions& adjustment) {
   archive("keyframes", adjustment.keyframes);
   archive("fixed_keyframes", adjustment.fixed_keyframes);
@@ -44,8 +58,9 @@ template <typename Archive>
 void Fields(Archive& archive, StereoOptions& stereo) {
   archive("epipolar", stereo.epipolar);
   archive("search", stereo.search);
+  archive("alignment", stereo.alignment);
+  archive("noise", stereo.noise);
   archive("adjustment", stereo.adjustment);
-  archive("pixel_sigma", stereo.pixel_sigma);
   archive("close_baselines", stereo.close_baselines);
   archive("min_start_points", stereo.min_start_points);
   archive("min_matches", stereo.min_matches);

@@ -11,18 +11,33 @@
 
 namespace regolith {
 
-/// A point of a map seen by a rectified stereo pair (Mur-Artal & Tardós 2017, equations 2 to 4):
-/// column and row in the left image, and with three rows the column in the right one, in standard
-/// deviations. Blocks: T_world_camera of the left camera, the point (m, world). A point that is not
-/// before the camera cannot be evaluated.
+/// Brings errors of RectifiedCamera::Project into standard deviations: `sigma` of the left column
+/// and row, `disparity_sigma` of the columns' difference (pixels). A keypoint that lies a little
+/// beside its point does so in both eyes, since the right column is found by what the left image
+/// shows there: so it is the disparity that has an error of its own, not the right column.
+inline Eigen::Matrix3d StereoWhitening(double sigma, double disparity_sigma) {
+  Eigen::Matrix3d whitening;
+  whitening << 1.0 / sigma, 0.0, 0.0,  //
+      0.0, 1.0 / sigma, 0.0,           //
+      1.0 / disparity_sigma, 0.0, -1.0 / disparity_sigma;
+  return whitening;
+}
+
+/// A point of a map seen by a rectified stereo pair (after Mur-Artal & Tardós 2017, equations 2 to
+/// 4): column and row in the left image, and with three rows the disparity, in standard deviations.
+/// Blocks: T_world_camera of the left camera, the point (m, world). A point that is not before the
+/// camera cannot be evaluated.
 template <int kRows>
 class PointProjectionFactor final : public ceres::SizedCostFunction<kRows, kPoseBlockSize, 3> {
   static_assert(kRows == 2 || kRows == 3, "one eye or both");
 
  public:
-  /// `seen`: pixels, as RectifiedCamera::Project gives them; `sigma`: pixels.
-  PointProjectionFactor(const RectifiedCamera& camera, const Eigen::Vector3d& seen, double sigma)
-      : camera_(camera), seen_(seen), weight_(1.0 / sigma) {}
+  /// `seen`: pixels, as RectifiedCamera::Project gives them; sigmas as for StereoWhitening.
+  PointProjectionFactor(const RectifiedCamera& camera, const Eigen::Vector3d& seen, double sigma,
+                        double disparity_sigma)
+      : camera_(camera),
+        seen_(seen),
+        whitening_(StereoWhitening(sigma, disparity_sigma).topRows<kRows>()) {}
 
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
     const SE3 T_world_camera = FromPoseBlock(blocks[0]);
@@ -31,10 +46,10 @@ class PointProjectionFactor final : public ceres::SizedCostFunction<kRows, kPose
                                                     T_world_camera.translation);
     if (point.z() < kNearest) return false;
     Eigen::Map<Eigen::Matrix<double, kRows, 1>>(residuals, kRows) =
-        weight_ * (camera_.Project(point) - seen_).template head<kRows>();
+        whitening_ * (camera_.Project(point) - seen_);
     if (jacobians == nullptr) return true;
     const Eigen::Matrix<double, kRows, 3> by_point_camera =
-        weight_ * camera_.ProjectionJacobian(point).template topRows<kRows>();
+        whitening_ * camera_.ProjectionJacobian(point);
     Eigen::Matrix<double, 3, 6> by_pose;
     by_pose << Hat(point), -R_camera_world;
     WritePoseJacobian<kRows>(by_point_camera * by_pose, blocks[0], jacobians[0]);
@@ -50,7 +65,7 @@ class PointProjectionFactor final : public ceres::SizedCostFunction<kRows, kPose
 
   RectifiedCamera camera_;
   Eigen::Vector3d seen_;
-  double weight_;
+  Eigen::Matrix<double, kRows, 3> whitening_;
 };
 
 using MonoProjectionFactor = PointProjectionFactor<2>;

@@ -155,7 +155,7 @@ void InertialFilter::AbsorbPose(const SE3& T_world_imu, const Matrix6d& covarian
 }
 
 void InertialFilter::AbsorbWheels(const WheelOdometry& wheels, const SE3& T_imu_base,
-                                  const Eigen::Vector3d& rate) {
+                                  const Eigen::Vector3d& rate, bool is_placed) {
   const Eigen::Matrix3d R_base_imu = T_imu_base.rotation.conjugate().toRotationMatrix();
   const Eigen::Matrix3d R_imu_world = state_.T_world_imu.rotation.conjugate().toRotationMatrix();
   const Eigen::Vector3d velocity_imu = R_imu_world * state_.v_world_imu;
@@ -178,7 +178,8 @@ void InertialFilter::AbsorbWheels(const WheelOdometry& wheels, const SE3& T_imu_
   const double floor = std::pow(trust.velocity_sigma, 2) + skid * skid;
   const Eigen::Vector3d variances(floor, floor + std::pow(trust.lateral_share * speed, 2),
                                   floor + std::pow(trust.vertical_share * speed, 2));
-  Absorb<3>(jacobian, wheels.linear_velocity_base - predicted, variances);
+  Absorb<3>(jacobian, wheels.linear_velocity_base - predicted, variances,
+            is_placed ? trust.placed_inflation * trust.placed_inflation : 1.0);
 }
 
 void InertialFilter::AbsorbVelocity(const Eigen::Vector3d& velocity_imu, double sigma) {
@@ -209,12 +210,17 @@ void InertialFilter::AbsorbRest(const ImuStatistics& samples) {
 template <int kRows>
 void InertialFilter::Absorb(const Eigen::Matrix<double, kRows, kSize>& jacobian,
                             const Eigen::Matrix<double, kRows, 1>& innovation,
-                            const Eigen::Matrix<double, kRows, 1>& variances) {
+                            const Eigen::Matrix<double, kRows, 1>& variances, double caution) {
   using Square = Eigen::Matrix<double, kRows, kRows>;
-  Square innovation_covariance = jacobian * covariance_ * jacobian.transpose();
-  innovation_covariance.diagonal() += variances;
-  const Eigen::Matrix<double, kSize, kRows> gain =
-      innovation_covariance.ldlt().solve(jacobian * covariance_).transpose();
+  using Gain = Eigen::Matrix<double, kSize, kRows>;
+  const Square predicted_covariance = jacobian * covariance_ * jacobian.transpose();
+  const auto gain_for = [&](double factor) -> Gain {
+    Square innovation_covariance = predicted_covariance;
+    innovation_covariance.diagonal() += factor * variances;
+    return innovation_covariance.ldlt().solve(jacobian * covariance_).transpose();
+  };
+  Gain gain = gain_for(caution);
+  if (caution != 1.0) gain.row(kWheelSlip) = gain_for(1.0).row(kWheelSlip);
   // Joseph's form keeps the covariance positive.
   const Covariance remaining = Covariance::Identity() - gain * jacobian;
   const Covariance updated = remaining * covariance_ * remaining.transpose() +

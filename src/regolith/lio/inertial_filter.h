@@ -52,9 +52,10 @@ class InertialFilter {
   /// covariance replace the prior's, and everything that is correlated with the pose follows.
   void AbsorbPose(const SE3& T_world_imu, const Matrix6d& covariance);
 
-  /// The velocity that the wheels tell. `rate`: the gyro's, rad/s, at the same time.
-  void AbsorbWheels(const WheelOdometry& wheels, const SE3& T_imu_base,
-                    const Eigen::Vector3d& rate);
+  /// The velocity that the wheels tell. `rate`: the gyro's, rad/s, at the same time; `is_placed`:
+  /// poses tell the rover's whole motion already.
+  void AbsorbWheels(const WheelOdometry& wheels, const SE3& T_imu_base, const Eigen::Vector3d& rate,
+                    bool is_placed);
 
   /// A velocity (m/s, IMU's frame) that another sensor tells; `sigma` of each axis.
   void AbsorbVelocity(const Eigen::Vector3d& velocity_imu, double sigma);
@@ -63,10 +64,12 @@ class InertialFilter {
   void AbsorbRest(const ImuStatistics& samples);
 
  private:
+  /// `caution`: all but the slip learns as if the variances were that many times larger (a partial
+  /// update; Brink 2017).
   template <int kRows>
   void Absorb(const Eigen::Matrix<double, kRows, kSize>& jacobian,
               const Eigen::Matrix<double, kRows, 1>& innovation,
-              const Eigen::Matrix<double, kRows, 1>& variances);
+              const Eigen::Matrix<double, kRows, 1>& variances, double caution = 1.0);
   void Correct(const Eigen::Matrix<double, kSize, 1>& error);
 
   NavState state_;

@@ -114,6 +114,35 @@ TEST(InertialFilter, AbsorbingThePriorChangesNothing) {
   EXPECT_LT(Minus(filter.state().T_world_imu, state.T_world_imu).norm(), 1e-12);
 }
 
+TEST(InertialFilter, WheelsSayLessWhereThePoseIsKnown) {
+  const auto samples = RestingSamples(400, Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(),
+                                      Eigen::Vector3d::Zero());
+  WheelOdometry wheels;
+  wheels.linear_velocity_base = {0.5, 0.0, 0.0};
+  InertialFilter alone = RestingFilter(samples);
+  InertialFilter placed = alone;
+  alone.AbsorbWheels(wheels, SE3(), Eigen::Vector3d::Zero(), false);
+  placed.AbsorbWheels(wheels, SE3(), Eigen::Vector3d::Zero(), true);
+  EXPECT_GT(placed.state().v_world_imu.x(), 0.0);
+  EXPECT_GT(alone.state().v_world_imu.x(), 2.0 * placed.state().v_world_imu.x());
+  EXPECT_LT(alone.covariance()(6, 6), placed.covariance()(6, 6));
+}
+
+TEST(InertialFilter, GravityKeepsItsPlaceWhereTheWorldIsAnother) {
+  const auto samples = RestingSamples(400, ExpSo3({0.1, -0.05, 0.0}), Eigen::Vector3d::Zero(),
+                                      Eigen::Vector3d::Zero());
+  InertialFilter filter = RestingFilter(samples);
+  const Eigen::Vector3d felt =
+      filter.state().T_world_imu.rotation.conjugate() * filter.gravity_world();
+  const SE3 pose{ExpSo3({0.3, 0.2, 1.0}), {1.0, 2.0, 3.0}};
+  filter.MoveInto(pose, {0.4, 0.0, 0.0}, 0.3);
+  EXPECT_LT((pose.rotation.conjugate() * filter.gravity_world() - felt).norm(), 1e-9);
+  EXPECT_NEAR(filter.covariance()(6, 6), 0.09, 1e-9);
+  // The magnitude is known in any world: no doubt along gravity.
+  const Eigen::Vector3d along = filter.gravity_world().normalized();
+  EXPECT_LT(along.dot(filter.covariance().block<3, 3>(15, 15) * along), 1e-4);
+}
+
 TEST(InertialFilter, DoubtGrowsWhileItIsBlind) {
   const auto samples = RestingSamples(400, Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(),
                                       Eigen::Vector3d::Zero());

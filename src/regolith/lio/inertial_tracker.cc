@@ -11,6 +11,8 @@ namespace regolith {
 namespace {
 
 constexpr double kEarthGravity = 9.81;
+// How long a scan that told all directions counts beside the wheels.
+constexpr double kPlaced = 0.5;  // s
 // Of a velocity that two scans tell, 1 σ.
 constexpr double kScanVelocity = 0.3;  // m/s
 
@@ -114,7 +116,8 @@ void InertialTracker::Step(const ImuSample& from, const ImuSample& to) {
       is_blind ? filter_->BlindRate() + filter_->state().gyro_bias : to.angular_velocity;
   for (; !wheels_.empty() && wheels_.front().time <= to.time; wheels_.pop_front()) {
     if (wheels_.front().time <= from.time) continue;
-    filter_->AbsorbWheels(wheels_.front(), rig_.wheels->T_imu_base, rate);
+    const bool is_placed = placed_ && SecondsBetween(*placed_, to.time) < kPlaced;
+    filter_->AbsorbWheels(wheels_.front(), rig_.wheels->T_imu_base, rate, is_placed);
   }
   for (; !velocities_.empty() && velocities_.front().time <= to.time; velocities_.pop_front()) {
     if (velocities_.front().time <= from.time) continue;

@@ -47,6 +47,9 @@ class InertialTracker {
   /// absorbed where they were measured.
   std::vector<StampedPose> PropagateTo(TimeNs end);
 
+  /// The filter has absorbed a pose whose six directions a scan told.
+  void NotePlaced() { placed_ = filter_->state().time; }
+
   /// Whether velocities that others told were absorbed on the way of the last PropagateTo.
   bool TookVelocities() const { return took_velocities_; }
 
@@ -77,6 +80,7 @@ class InertialTracker {
   std::deque<WheelOdometry> wheels_;
   std::deque<BodyVelocity> velocities_;
   bool took_velocities_ = false;
+  std::optional<TimeNs> placed_;  ///< of the last NotePlaced
   std::optional<InertialFilter> filter_;
   TimeNs last_rest_ = 0;  ///< end of the last window of rest that was absorbed
   size_t gap_count_ = 0;

@@ -255,6 +255,7 @@ ScanEstimate LidarOdometry::EstimateInertial(const LidarScan& scan) {
         Match(scan, points_body, {filter.state().T_world_imu, filter.PoseCovariance()});
     if (estimate.match.used_scan) {
       filter.AbsorbPose(estimate.match.T_map_body, estimate.match.covariance);
+      if (estimate.match.observable.degenerate_directions == 0) inertial_->NotePlaced();
     }
     stopwatch.Lap("match");
   }

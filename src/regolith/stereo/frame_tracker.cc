@@ -30,12 +30,10 @@ FrameTracker::FrameTracker(const StereoOptions& options, StereoMap* map)
     : options_(options),
       map_(map),
       search_(options.search, map->camera()),
-      close_depth_(options.close_baselines * map->camera().baseline) {}
-
-PointSighting FrameTracker::SightingOf(const StereoFrame& frame, size_t feature,
-                                       const Eigen::Vector3d& point_world) const {
-  return {point_world, frame.features.Seen(feature), frame.features.HasRight(feature),
-          options_.pixel_sigma * frame.features.scales[feature]};
+      aligner_(options.alignment, map->camera()),
+      detected_(options.noise),
+      close_depth_(options.close_baselines * map->camera().baseline) {
+  detected_.aligned_pixel = detected_.pixel;
 }
 
 bool FrameTracker::FollowFrame(const StereoFrame& last, StereoFrame* frame) {
@@ -69,8 +67,8 @@ bool FrameTracker::SearchAround(const StereoFrame& last, double radius, StereoFr
   if (matches.size() < static_cast<size_t>(options_.min_matches)) return false;
   std::vector<PointSighting> sightings;
   for (const FeatureMatch& match : matches) {
-    sightings.push_back(SightingOf(*frame, static_cast<size_t>(match.second),
-                                   positions[static_cast<size_t>(match.first)]));
+    sightings.push_back(SightingOf(frame->features, static_cast<size_t>(match.second),
+                                   positions[static_cast<size_t>(match.first)], detected_));
   }
   const PoseSolution solution = SolvePose(camera, sightings, frame->T_world_camera);
   if (solution.inlier_count < static_cast<size_t>(options_.min_matches)) return false;
@@ -114,7 +112,8 @@ bool FrameTracker::FollowKeyframe(KeyframeId keyframe_id, StereoFrame* frame) {
   std::vector<PointSighting> sightings;
   for (const int inlier : found->inliers) {
     const auto row = static_cast<size_t>(inlier);
-    sightings.push_back(SightingOf(*frame, static_cast<size_t>(matches[row].second), points[row]));
+    sightings.push_back(SightingOf(frame->features, static_cast<size_t>(matches[row].second),
+                                   points[row], detected_));
   }
   const PoseSolution solution = SolvePose(camera, sightings, found->T_camera_points.Inverse());
   if (solution.inlier_count < kLeastKeyframeInliers) return false;
@@ -196,6 +195,16 @@ void FrameTracker::AddLandmarks(double radius, StereoFrame* frame) {
   }
 }
 
+void FrameTracker::AlignKeypoints(StereoFrame* frame) const {
+  for (size_t i = 0; i < frame->landmarks.size(); ++i) {
+    const StereoLandmark* landmark = map_->Find(frame->landmarks[i]);
+    if (landmark == nullptr) continue;
+    if (!aligner_.Align(*map_, *landmark, frame->T_world_camera, &frame->features, i)) {
+      frame->landmarks[i] = kNoId;
+    }
+  }
+}
+
 TrackingResult FrameTracker::Judge(StereoFrame* frame) {
   std::vector<PointSighting> sightings;
   std::vector<size_t> rows;
@@ -205,7 +214,7 @@ TrackingResult FrameTracker::Judge(StereoFrame* frame) {
       frame->landmarks[i] = kNoId;
       continue;
     }
-    sightings.push_back(SightingOf(*frame, i, landmark->position_world));
+    sightings.push_back(SightingOf(frame->features, i, landmark->position_world, options_.noise));
     rows.push_back(i);
   }
   const PoseSolution solution = SolvePose(map_->camera(), sightings, frame->T_world_camera);
@@ -234,6 +243,7 @@ std::optional<TrackingResult> FrameTracker::FollowMap(double radius, int min_inl
                                                       StereoFrame* frame) {
   const StereoFrame before = *frame;
   AddLandmarks(radius, frame);
+  AlignKeypoints(frame);
   TrackingResult result = Judge(frame);
   const std::vector<Covisible> seeing = map_->Seeing(frame->landmarks);
   if (result.inliers < min_inliers || seeing.empty()) {

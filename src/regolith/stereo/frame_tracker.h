@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "regolith/core/span.h"
+#include "regolith/stereo/landmark_aligner.h"
 #include "regolith/stereo/landmark_search.h"
 #include "regolith/stereo/stereo_map.h"
 #include "regolith/stereo/stereo_options.h"
@@ -50,14 +51,15 @@ class FrameTracker {
   void AddNear(const SE3& T_world_camera, std::vector<KeyframeId>* keyframes) const;
   std::vector<LandmarkId> LocalLandmarks(const StereoFrame& frame) const;
   void AddLandmarks(double radius, StereoFrame* frame);
+  void AlignKeypoints(StereoFrame* frame) const;
   TrackingResult Judge(StereoFrame* frame);
-  PointSighting SightingOf(const StereoFrame& frame, size_t feature,
-                           const Eigen::Vector3d& point_world) const;
 
   StereoOptions options_;
   StereoMap* map_;
   LandmarkSearch search_;
-  double close_depth_;  ///< m
+  LandmarkAligner aligner_;
+  SightingNoise detected_;  ///< of places that are not aligned yet
+  double close_depth_;      ///< m
 };
 
 }  // namespace regolith

@@ -21,9 +21,9 @@ constexpr double kNearest = 0.05;  // m, of a sighting that a solve starts with
 
 class Adjustment {
  public:
-  Adjustment(const LocalAdjustmentOptions& options, double pixel_sigma, StereoMap* map)
+  Adjustment(const LocalAdjustmentOptions& options, const SightingNoise& noise, StereoMap* map)
       : options_(options),
-        pixel_sigma_(pixel_sigma),
+        noise_(noise),
         map_(map),
         mono_loss_(std::sqrt(OutlierThreshold(false))),
         stereo_loss_(std::sqrt(OutlierThreshold(true))),
@@ -131,12 +131,13 @@ class Adjustment {
       for (const StereoSighting& sighting : landmark.sightings) {
         const auto pose = poses_.find(sighting.keyframe);
         if (pose == poses_.end()) continue;
-        const PointSighting seen = map_->SightingOf(landmark, sighting, pixel_sigma_);
+        const PointSighting seen = map_->SightingOf(landmark, sighting, noise_);
         if ((pose->second.before.Inverse() * seen.point_world).z() < kNearest) continue;
         ceres::CostFunction* cost =
-            seen.has_right ? static_cast<ceres::CostFunction*>(
-                                 new StereoProjectionFactor(map_->camera(), seen.seen, seen.sigma))
-                           : new MonoProjectionFactor(map_->camera(), seen.seen, seen.sigma);
+            seen.has_right ? static_cast<ceres::CostFunction*>(new StereoProjectionFactor(
+                                 map_->camera(), seen.seen, seen.sigma, seen.disparity_sigma))
+                           : new MonoProjectionFactor(map_->camera(), seen.seen, seen.sigma,
+                                                      seen.disparity_sigma);
         problem_.AddResidualBlock(cost, seen.has_right ? &stereo_loss_ : &mono_loss_,
                                   pose->second.block, point.position);
       }
@@ -194,7 +195,7 @@ class Adjustment {
       for (const StereoSighting& sighting : sightings) {
         const StereoLandmark* landmark = map_->Find(point.id);
         if (landmark == nullptr) break;
-        const PointSighting seen = map_->SightingOf(*landmark, sighting, pixel_sigma_);
+        const PointSighting seen = map_->SightingOf(*landmark, sighting, noise_);
         const SE3 T_camera_world = map_->keyframe(sighting.keyframe).T_world_camera.Inverse();
         if (SquaredError(map_->camera(), T_camera_world, seen) <=
             OutlierThreshold(seen.has_right)) {
@@ -207,7 +208,7 @@ class Adjustment {
   }
 
   LocalAdjustmentOptions options_;
-  double pixel_sigma_;
+  SightingNoise noise_;
   StereoMap* map_;
   PoseManifold manifold_;
   ceres::HuberLoss mono_loss_;
@@ -221,9 +222,9 @@ class Adjustment {
 
 }  // namespace
 
-void AdjustAround(KeyframeId newest, const LocalAdjustmentOptions& options, double pixel_sigma,
-                  StereoMap* map) {
-  Adjustment(options, pixel_sigma, map).Run(newest);
+void AdjustAround(KeyframeId newest, const LocalAdjustmentOptions& options,
+                  const SightingNoise& noise, StereoMap* map) {
+  Adjustment(options, noise, map).Run(newest);
 }
 
 }  // namespace regolith

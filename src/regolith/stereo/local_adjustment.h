@@ -11,7 +11,7 @@ namespace regolith {
 /// agreement (local bundle adjustment, Mur-Artal & Tardós 2017, equation 4): Huber's loss, Schur's
 /// complement, one thread, so that it is the same on every run. Sightings that do not fit
 /// afterwards are taken out of the map.
-void AdjustAround(KeyframeId newest, const LocalAdjustmentOptions& options, double pixel_sigma,
-                  StereoMap* map);
+void AdjustAround(KeyframeId newest, const LocalAdjustmentOptions& options,
+                  const SightingNoise& noise, StereoMap* map);
 
 }  // namespace regolith

@@ -32,14 +32,10 @@ Eigen::Vector3d RefinePoint(const RectifiedCamera& camera, const std::vector<SE3
     for (size_t k = 0; k < sightings.size(); ++k) {
       const Eigen::Vector3d point = T_camera_world[k] * point_world;
       if (point.z() < kNearest) return point_world;
-      const double weight = 1.0 / sightings[k].sigma;
-      Eigen::Vector3d error = weight * (camera.Project(point) - sightings[k].seen);
-      Eigen::Matrix3d jacobian =
-          weight * camera.ProjectionJacobian(point) * T_camera_world[k].rotation.toRotationMatrix();
-      if (!sightings[k].has_right) {
-        error.z() = 0.0;
-        jacobian.row(2).setZero();
-      }
+      const Eigen::Matrix3d whitening = sightings[k].Whitening();
+      const Eigen::Vector3d error = whitening * (camera.Project(point) - sightings[k].seen);
+      const Eigen::Matrix3d jacobian = whitening * camera.ProjectionJacobian(point) *
+                                       T_camera_world[k].rotation.toRotationMatrix();
       information += jacobian.transpose() * jacobian;
       gradient += jacobian.transpose() * error;
     }
@@ -56,6 +52,7 @@ LocalMapper::LocalMapper(const StereoOptions& options, StereoMap* map)
     : options_(options),
       map_(map),
       search_(options.search, map->camera()),
+      aligner_(options.alignment, map->camera()),
       close_depth_(options.close_baselines * map->camera().baseline) {}
 
 KeyframeId LocalMapper::Insert(KeyframeId reference, StereoFrame* frame) {
@@ -66,13 +63,16 @@ KeyframeId LocalMapper::Insert(KeyframeId reference, StereoFrame* frame) {
   keyframe.landmarks = frame->landmarks;
   keyframe.landmarks.resize(frame->features.size(), kNoId);
   keyframe.parent = reference;
+  if (!keyframe.features.patches.empty()) {
+    keyframe.features.slopes = DisparitySlopes(keyframe.features);
+  }
   const KeyframeId id = map_->AddKeyframe(std::move(keyframe)).id;
   RemovePoorLandmarks(id);
   AddPointsOf(id);
   if (reference != kNoId) {
     AddFarPoints(id);
     FuseAround(id);
-    AdjustAround(id, options_.adjustment, options_.pixel_sigma, map_);
+    AdjustAround(id, options_.adjustment, options_.noise, map_);
     RemoveRedundant(id);
     const KeyframeId old = id - options_.full_keyframes;
     if (map_->HasKeyframe(old)) map_->Slim(old);
@@ -122,9 +122,7 @@ void LocalMapper::RemovePoorLandmarks(KeyframeId newest) {
 bool LocalMapper::Fits(KeyframeId keyframe, size_t feature,
                        const Eigen::Vector3d& point_world) const {
   const StereoKeyframe& seeing = map_->keyframe(keyframe);
-  const PointSighting sighting{point_world, seeing.features.Seen(feature),
-                               seeing.features.HasRight(feature),
-                               options_.pixel_sigma * seeing.features.scales[feature]};
+  const PointSighting sighting = SightingOf(seeing.features, feature, point_world, options_.noise);
   return SquaredError(map_->camera(), seeing.T_world_camera.Inverse(), sighting) <=
          OutlierThreshold(sighting.has_right);
 }
@@ -142,7 +140,7 @@ void LocalMapper::AddFarPoints(KeyframeId newest) {
 void LocalMapper::AddFarPointsWith(KeyframeId newest, KeyframeId neighbour_id) {
   const RectifiedCamera& camera = map_->camera();
   const StereoKeyframe& keyframe = map_->keyframe(newest);
-  const StereoKeyframe& neighbour = map_->keyframe(neighbour_id);
+  StereoKeyframe& neighbour = map_->keyframe(neighbour_id);
   const SE3 T_neighbour_world = neighbour.T_world_camera.Inverse();
   const SE3 T_keyframe_world = keyframe.T_world_camera.Inverse();
   std::vector<SearchPoint> points;
@@ -159,13 +157,14 @@ void LocalMapper::AddFarPointsWith(KeyframeId newest, KeyframeId neighbour_id) {
     const size_t feature = points[static_cast<size_t>(match.first)].row;
     const auto other = static_cast<size_t>(match.second);
     if (neighbour.landmarks[other] != kNoId || keyframe.landmarks[feature] != kNoId) continue;
-    const double sigma = options_.pixel_sigma;
+    if (!aligner_.Align(keyframe, feature,
+                        keyframe.T_world_camera * keyframe.features.Point(feature, camera),
+                        neighbour.T_world_camera, &neighbour.features, other)) {
+      continue;
+    }
     const std::vector<PointSighting> sightings = {
-        {{}, keyframe.features.Seen(feature), true, sigma * keyframe.features.scales[feature]},
-        {{},
-         neighbour.features.Seen(other),
-         neighbour.features.HasRight(other),
-         sigma * neighbour.features.scales[other]}};
+        SightingOf(keyframe.features, feature, {}, options_.noise),
+        SightingOf(neighbour.features, other, {}, options_.noise)};
     const Eigen::Vector3d position =
         RefinePoint(camera, {T_keyframe_world, T_neighbour_world}, sightings,
                     keyframe.T_world_camera * keyframe.features.Point(feature, camera));
@@ -188,7 +187,7 @@ void LocalMapper::FuseAround(KeyframeId newest) {
 /// the same point.
 void LocalMapper::FuseInto(KeyframeId newest, KeyframeId neighbour_id) {
   const StereoKeyframe& keyframe = map_->keyframe(newest);
-  const StereoKeyframe& neighbour = map_->keyframe(neighbour_id);
+  StereoKeyframe& neighbour = map_->keyframe(neighbour_id);
   std::vector<SearchPoint> points;
   std::vector<LandmarkId> searched;
   for (const LandmarkId id : keyframe.landmarks) {
@@ -207,8 +206,13 @@ void LocalMapper::FuseInto(KeyframeId newest, KeyframeId neighbour_id) {
     const LandmarkId id = searched[static_cast<size_t>(match.first)];
     const auto feature = static_cast<size_t>(match.second);
     const StereoLandmark* landmark = map_->Find(id);
-    if (landmark == nullptr || !Fits(neighbour_id, feature, landmark->position_world)) continue;
+    if (landmark == nullptr) continue;
     const LandmarkId there = neighbour.landmarks[feature];
+    if (there == kNoId &&
+        !aligner_.Align(*map_, *landmark, neighbour.T_world_camera, &neighbour.features, feature)) {
+      continue;
+    }
+    if (!Fits(neighbour_id, feature, landmark->position_world)) continue;
     if (there == kNoId) {
       if (map_->AddSighting(id, neighbour_id, feature)) map_->Refresh(id);
       continue;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "regolith/stereo/frame_tracker.h"
+#include "regolith/stereo/landmark_aligner.h"
 #include "regolith/stereo/landmark_search.h"
 #include "regolith/stereo/stereo_map.h"
 #include "regolith/stereo/stereo_options.h"
@@ -40,6 +41,7 @@ class LocalMapper {
   StereoOptions options_;
   StereoMap* map_;
   LandmarkSearch search_;
+  LandmarkAligner aligner_;
   double close_depth_;                ///< m
   std::vector<LandmarkId> on_trial_;  ///< landmarks of the last keyframes
   std::vector<KeyframeId> removed_;

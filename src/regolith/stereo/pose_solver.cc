@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "regolith/factors/point_projection_factor.h"
 #include "regolith/geometry/so3.h"
 
 namespace regolith {
@@ -50,13 +51,9 @@ System BuildSystem(const RectifiedCamera& camera, Span<const PointSighting> sigh
     const Eigen::Vector3d point =
         R_camera_world * (sighting.point_world - T_world_camera.translation);
     if (point.z() < kNearest) continue;
-    const double weight = 1.0 / sighting.sigma;
-    Eigen::Vector3d error = weight * (camera.Project(point) - sighting.seen);
-    Eigen::Matrix3d by_point = weight * camera.ProjectionJacobian(point);
-    if (!sighting.has_right) {
-      error.z() = 0.0;
-      by_point.row(2).setZero();
-    }
+    const Eigen::Matrix3d whitening = sighting.Whitening();
+    const Eigen::Vector3d error = whitening * (camera.Project(point) - sighting.seen);
+    const Eigen::Matrix3d by_point = whitening * camera.ProjectionJacobian(point);
     Eigen::Matrix<double, 3, 6> jacobian;
     jacobian << by_point * Hat(point), -by_point * R_camera_world;
     const Loss loss(error.squaredNorm(), OutlierThreshold(sighting.has_right), robust);
@@ -94,13 +91,24 @@ SE3 Descend(const RectifiedCamera& camera, Span<const PointSighting> sightings,
 
 }  // namespace
 
+Eigen::Matrix3d PointSighting::Whitening() const {
+  Eigen::Matrix3d whitening = StereoWhitening(sigma, disparity_sigma);
+  if (!has_right) whitening.row(2).setZero();
+  return whitening;
+}
+
+PointSighting SightingOf(const StereoFeatures& features, size_t row,
+                         const Eigen::Vector3d& point_world, const SightingNoise& noise) {
+  const double sigma =
+      features.patches.empty() ? noise.pixel * features.scales[row] : noise.aligned_pixel;
+  return {point_world, features.Seen(row), features.HasRight(row), sigma, noise.disparity};
+}
+
 double SquaredError(const RectifiedCamera& camera, const SE3& T_camera_world,
                     const PointSighting& sighting) {
   const Eigen::Vector3d point = T_camera_world * sighting.point_world;
   if (point.z() < kNearest) return std::numeric_limits<double>::infinity();
-  Eigen::Vector3d error = camera.Project(point) - sighting.seen;
-  if (!sighting.has_right) error.z() = 0.0;
-  return error.squaredNorm() / (sighting.sigma * sighting.sigma);
+  return (sighting.Whitening() * (camera.Project(point) - sighting.seen)).squaredNorm();
 }
 
 PoseSolution SolvePose(const RectifiedCamera& camera, Span<const PointSighting> sightings,

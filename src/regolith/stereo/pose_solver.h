@@ -10,6 +10,8 @@
 #include "regolith/core/span.h"
 #include "regolith/geometry/se3.h"
 #include "regolith/sensor/rectified_camera.h"
+#include "regolith/stereo/stereo_features.h"
+#include "regolith/stereo/stereo_options.h"
 
 namespace regolith {
 
@@ -18,8 +20,16 @@ struct PointSighting {
   Eigen::Vector3d point_world = Eigen::Vector3d::Zero();  ///< m
   Eigen::Vector3d seen = Eigen::Vector3d::Zero();  ///< pixels, as RectifiedCamera::Project gives it
   bool has_right = false;                          ///< the third of them too
-  double sigma = 1.0;                              ///< pixels
+  double sigma = 1.0;                              ///< pixels, of the left column and row
+  double disparity_sigma = 1.0;                    ///< pixels
+
+  /// Errors of RectifiedCamera::Project into standard deviations; what was not seen has none.
+  Eigen::Matrix3d Whitening() const;
 };
+
+/// Feature `row` as a sighting of a point.
+PointSighting SightingOf(const StereoFeatures& features, size_t row,
+                         const Eigen::Vector3d& point_world, const SightingNoise& noise);
 
 /// χ² of one sighting (two or three values), above which one in twenty true ones lies.
 inline double OutlierThreshold(bool has_right) { return has_right ? 7.815 : 5.991; }

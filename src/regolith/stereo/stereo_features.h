@@ -9,6 +9,7 @@
 
 #include "regolith/features/feature_set.h"
 #include "regolith/sensor/rectified_camera.h"
+#include "regolith/stereo/keypoint_patch.h"
 
 namespace regolith {
 
@@ -21,6 +22,9 @@ struct StereoFeatures {
   std::vector<float> scales;            ///< of the pyramid's level, 1 for the image itself
   bool has_scales = false;              ///< the extractor looks at a pyramid
   Descriptors descriptors;
+  std::vector<KeypointPatch> patches;  ///< one a keypoint; empty: places are taken as they are
+  /// DisparitySlopes, of a keyframe with patches.
+  std::vector<Eigen::Vector2f> slopes;
 
   size_t size() const { return pixels.size(); }
   bool HasRight(size_t index) const { return right_columns[index] != kNotSeen; }

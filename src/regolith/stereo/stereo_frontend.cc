@@ -31,16 +31,17 @@ FeatureOptions ForOneEye(FeatureOptions options) {
 
 StereoFrontend::StereoFrontend(const FeatureOptions& features,
                                const std::optional<ModelManifest>& model,
-                               const EpipolarMatcherOptions& options, const CameraIntrinsics& left,
+                               const StereoOptions& options, const CameraIntrinsics& left,
                                const CameraIntrinsics& right, const SE3& T_left_right,
                                const std::optional<Image>& mask, ThreadPool* threads)
     : rectifier_(left, right, T_left_right),
       left_mask_(rectifier_.LeftMask(mask ? &*mask : nullptr)),
       right_mask_(rectifier_.RightMask()),
       max_keypoints_(features.max_keypoints),
+      cuts_patches_(options.alignment.enabled),
       left_(FeatureExtractor::Create(ForOneEye(features), model)),
       right_(FeatureExtractor::Create(ForOneEye(features), model)),
-      matcher_(options, rectifier_.camera()),
+      matcher_(options.epipolar, rectifier_.camera()),
       threads_(threads) {}
 
 StereoObservation StereoFrontend::Observe(const Image& left, const Image& right) {
@@ -61,6 +62,11 @@ StereoObservation StereoFrontend::Observe(const Image& left, const Image& right)
   stopwatch.Lap("stereo_features");
   StereoObservation observation;
   observation.features = matcher_.Match(left_image, right_image, left_set, right_set);
+  if (cuts_patches_ && !observation.features.has_scales) {
+    for (const Eigen::Vector2f& pixel : observation.features.pixels) {
+      observation.features.patches.push_back(CutPatch(left_image, pixel));
+    }
+  }
   observation.left_keypoints = static_cast<int>(left_set.size());
   observation.right_keypoints = static_cast<int>(right_set.size());
   for (size_t i = 0; i < observation.features.size(); ++i) {

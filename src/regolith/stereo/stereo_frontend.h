@@ -11,6 +11,7 @@
 #include "regolith/features/feature_extractor.h"
 #include "regolith/sensor/image.h"
 #include "regolith/stereo/epipolar_matcher.h"
+#include "regolith/stereo/stereo_options.h"
 #include "regolith/stereo/stereo_rectifier.h"
 
 namespace regolith {
@@ -31,7 +32,7 @@ class StereoFrontend {
   /// `mask`: of the left camera, as large as its images and 0 where the rover sees itself. Throws
   /// InputError where the cameras make no pair, or the features have no descriptors.
   StereoFrontend(const FeatureOptions& features, const std::optional<ModelManifest>& model,
-                 const EpipolarMatcherOptions& options, const CameraIntrinsics& left,
+                 const StereoOptions& options, const CameraIntrinsics& left,
                  const CameraIntrinsics& right, const SE3& T_left_right,
                  const std::optional<Image>& mask, ThreadPool* threads);
 
@@ -49,6 +50,7 @@ class StereoFrontend {
   Image left_mask_;
   Image right_mask_;
   int max_keypoints_;
+  bool cuts_patches_;
   std::unique_ptr<FeatureExtractor> left_;
   std::unique_ptr<FeatureExtractor> right_;
   EpipolarMatcher matcher_;

@@ -146,6 +146,8 @@ void StereoMap::Slim(KeyframeId keyframe) {
   features.pixels = Kept(features.pixels, rows);
   features.right_columns = Kept(features.right_columns, rows);
   features.scales = Kept(features.scales, rows);
+  if (!features.patches.empty()) features.patches = Kept(features.patches, rows);
+  if (!features.slopes.empty()) features.slopes = Kept(features.slopes, rows);
   Descriptors descriptors;
   descriptors.ResetLike(features.descriptors);
   for (const size_t row : rows) descriptors.Append(features.descriptors, row);
@@ -210,11 +212,10 @@ std::vector<Covisible> StereoMap::CovisibleWith(KeyframeId keyframe) const {
 }
 
 PointSighting StereoMap::SightingOf(const StereoLandmark& landmark, const StereoSighting& sighting,
-                                    double sigma) const {
-  const StereoFeatures& features = keyframes_.at(sighting.keyframe).features;
-  const auto feature = static_cast<size_t>(sighting.feature);
-  return {landmark.position_world, features.Seen(feature), features.HasRight(feature),
-          sigma * features.scales[feature]};
+                                    const SightingNoise& noise) const {
+  return regolith::SightingOf(keyframes_.at(sighting.keyframe).features,
+                              static_cast<size_t>(sighting.feature), landmark.position_world,
+                              noise);
 }
 
 }  // namespace regolith

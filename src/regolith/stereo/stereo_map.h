@@ -102,9 +102,9 @@ class StereoMap {
   /// The same of a keyframe's landmarks, without itself.
   std::vector<Covisible> CovisibleWith(KeyframeId keyframe) const;
 
-  /// What a keyframe saw of a landmark; `sigma` at scale 1.
+  /// What a keyframe saw of a landmark.
   PointSighting SightingOf(const StereoLandmark& landmark, const StereoSighting& sighting,
-                           double sigma) const;
+                           const SightingNoise& noise) const;
 
  private:
   struct Removed {

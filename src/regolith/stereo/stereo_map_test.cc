@@ -122,7 +122,7 @@ TEST_F(StereoMapTest, AdjustmentBringsKeyframesAndLandmarksIntoAgreement) {
   ASSERT_GT(error(), 0.05);
   LocalAdjustmentOptions options;
   options.iterations = 20;
-  AdjustAround(3, options, 0.5, &map_);
+  AdjustAround(3, options, SightingNoise(), &map_);
   EXPECT_LT(error(), 0.005);
   EXPECT_EQ(map_.keyframe(2).landmarks[9], kNoId);
   EXPECT_EQ(map_.keyframe(2).landmarks[10], landmarks_[10]);

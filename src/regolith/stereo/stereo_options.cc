@@ -28,6 +28,18 @@ void LandmarkSearchOptions::Check() const {
   REGOLITH_CHECK(max_view_angle > 0.0, "max_view_angle=", max_view_angle);
 }
 
+void PatchAlignmentOptions::Check() const {
+  REGOLITH_CHECK(min_correlation > 0.0 && min_correlation < 1.0,
+                 "min_correlation=", min_correlation);
+  REGOLITH_CHECK(max_step > 0.0 && max_step < 4.0, "max_step=", max_step);
+}
+
+void SightingNoise::Check() const {
+  REGOLITH_CHECK(pixel > 0.0, "pixel=", pixel);
+  REGOLITH_CHECK(aligned_pixel > 0.0, "aligned_pixel=", aligned_pixel);
+  REGOLITH_CHECK(disparity > 0.0, "disparity=", disparity);
+}
+
 void LocalAdjustmentOptions::Check() const {
   REGOLITH_CHECK(keyframes >= 2, "keyframes=", keyframes);
   REGOLITH_CHECK(fixed_keyframes >= 1, "fixed_keyframes=", fixed_keyframes);
@@ -38,8 +50,9 @@ void LocalAdjustmentOptions::Check() const {
 void StereoOptions::Check() const {
   epipolar.Check();
   search.Check();
+  alignment.Check();
+  noise.Check();
   adjustment.Check();
-  REGOLITH_CHECK(pixel_sigma > 0.0, "pixel_sigma=", pixel_sigma);
   REGOLITH_CHECK(close_baselines > 0.0, "close_baselines=", close_baselines);
   REGOLITH_CHECK(min_start_points >= 10, "min_start_points=", min_start_points);
   REGOLITH_CHECK(min_matches >= 6, "min_matches=", min_matches);

@@ -31,6 +31,24 @@ struct LandmarkSearchOptions {
   void Check() const;
 };
 
+/// How keypoints are moved to their landmarks by what the images look like around them.
+struct PatchAlignmentOptions {
+  bool enabled = true;           ///< of features that are found in the image itself, at one scale
+  double min_correlation = 0.7;  ///< of the patches, of a landmark that is seen
+  double max_step = 2.5;         ///< pixels from where the keypoint was detected
+
+  void Check() const;
+};
+
+/// How exactly keypoints say where a point is seen, 1 σ.
+struct SightingNoise {
+  double pixel = 0.5;          ///< pixels at scale 1, of a place as it was detected
+  double aligned_pixel = 0.3;  ///< pixels, of a place that was aligned
+  double disparity = 0.3;      ///< pixels, at any scale
+
+  void Check() const;
+};
+
 /// A bundle adjustment of the keyframes around the newest one.
 struct LocalAdjustmentOptions {
   int keyframes = 8;         ///< that move
@@ -45,8 +63,9 @@ struct LocalAdjustmentOptions {
 struct StereoOptions {
   EpipolarMatcherOptions epipolar;
   LandmarkSearchOptions search;
+  PatchAlignmentOptions alignment;
+  SightingNoise noise;
   LocalAdjustmentOptions adjustment;
-  double pixel_sigma = 1.0;       ///< pixels at scale 1, of where a keypoint is seen
   double close_baselines = 40.0;  ///< a point is close that is nearer than so many baselines
   int min_start_points = 100;     ///< keypoints with a distance, for a start
   int min_matches = 20;           ///< with the last image; with fewer the search is widened

@@ -37,7 +37,7 @@ StereoPipeline::StereoPipeline(const PipelineOptions& options, const RigCalibrat
     : left_camera_(options.tracked_camera),
       right_camera_(right_camera),
       max_gap_(kMaxPeriods / rig.cameras.at(left_camera_).rate),
-      frontend_(options.features, options.feature_model, options.stereo.epipolar,
+      frontend_(options.features, options.feature_model, options.stereo,
                 rig.cameras.at(left_camera_).intrinsics, rig.cameras.at(right_camera).intrinsics,
                 LeftRight(rig, left_camera_, right_camera), mask, threads),
       T_body_camera_(rig.cameras.at(left_camera_).T_imu_camera * frontend_.T_left_rectified()),

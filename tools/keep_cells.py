@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The Regolith authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Copies what a `regolith reproduce` folder has measured (metrics.json, summary.json of each finished cell) to docs/results/cells.
+
+usage: keep_cells.py OUT [--to docs/results/cells]
+
+Laid back into OUT/cells of a new folder, they are finished cells there, and `reproduce` makes its tables of them without running anything again.
+"""
+
+import argparse
+import pathlib
+import shutil
+import sys
+
+KEPT = ("metrics.json", "summary.json")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("--to", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[1] / "docs/results/cells")
+    arguments = parser.parse_args()
+    cells = arguments.out / "cells"
+    if not cells.is_dir():
+        print(f"error: {cells}: no such folder; expected the --out of `regolith reproduce`", file=sys.stderr)
+        return 2
+    count = 0
+    for metrics in sorted(cells.glob("*/*/metrics.json")):
+        made = metrics.parent
+        if made.suffix == ".making" or not (made / "summary.json").exists():
+            continue
+        place = arguments.to / made.relative_to(cells)
+        place.mkdir(parents=True, exist_ok=True)
+        for name in KEPT:
+            shutil.copyfile(made / name, place / name)
+        count += 1
+    print(f"{count} cells are in {arguments.to}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
