@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Copies what a `regolith reproduce` folder has measured (metrics.json, summary.json of each finished cell) to docs/results/cells.
 
-usage: keep_cells.py OUT [--to docs/results/cells]
+usage: keep_cells.py OUT [--to docs/results]
 
-Laid back into OUT/cells of a new folder, they are finished cells there, and `reproduce` makes its tables of them without running anything again.
+The plan is kept too, so that a copy of the folder is the --out of an unfinished reproduction: `cp -r docs/results out/full`, then `regolith reproduce`
+with --pairs and --duration as in plan.yaml makes its tables of the cells that are there and runs the others.
 """
 
 import argparse
@@ -19,7 +20,7 @@ KEPT = ("metrics.json", "summary.json")
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=pathlib.Path)
-    parser.add_argument("--to", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[1] / "docs/results/cells")
+    parser.add_argument("--to", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[1] / "docs/results")
     arguments = parser.parse_args()
     cells = arguments.out / "cells"
     if not cells.is_dir():
@@ -30,11 +31,12 @@ def main():
         made = metrics.parent
         if made.suffix == ".making" or not (made / "summary.json").exists():
             continue
-        place = arguments.to / made.relative_to(cells)
+        place = arguments.to / made.relative_to(arguments.out)
         place.mkdir(parents=True, exist_ok=True)
         for name in KEPT:
             shutil.copyfile(made / name, place / name)
         count += 1
+    shutil.copyfile(arguments.out / "plan.yaml", arguments.to / "plan.yaml")
     print(f"{count} cells are in {arguments.to}")
     return 0
 

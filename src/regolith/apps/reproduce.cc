@@ -12,6 +12,7 @@
 #include "regolith/apps/reproduce_figures.h"
 #include "regolith/core/check.h"
 #include "regolith/core/error.h"
+#include "regolith/core/join.h"
 #include "regolith/core/log.h"
 #include "regolith/core/stop.h"
 #include "regolith/io/atomic_file.h"
@@ -45,9 +46,7 @@ std::string Command(const ReproduceArguments& arguments) {
   if (arguments.duration) add("--duration", Concatenate(*arguments.duration));
   if (arguments.pairs) add("--pairs", std::to_string(*arguments.pairs));
   const auto add_list = [&](const char* option, const std::vector<std::string>& values) {
-    std::string list;
-    for (const std::string& value : values) list += (list.empty() ? "" : ",") + value;
-    if (!list.empty()) add(option, list);
+    if (!values.empty()) add(option, Join(values, ","));
   };
   add_list("--scenarios", arguments.scenarios);
   add_list("--methods", arguments.methods);
@@ -65,11 +64,7 @@ std::vector<ReportItem> Header(const ReproduceArguments& arguments,
       if (cell.failure.empty() && !cell.version.empty()) versions.insert(cell.version);
     }
   }
-  if (versions.size() > 1) {
-    std::string text;
-    for (const std::string& version : versions) text += (text.empty() ? "" : ", ") + version;
-    header.push_back({"cells are of several versions", text});
-  }
+  if (versions.size() > 1) header.push_back({"cells are of several versions", Join(versions)});
   if (StopRequested()) header.push_back({"state", "interrupted; the same command goes on"});
   return header;
 }

@@ -80,7 +80,7 @@ struct PaperPair {
 };
 
 PaperPair PaperOf(const TrackMethod& method, const Scene& scene) {
-  if (!method.paper || !(scene.IsMoon() || scene.IsMars())) return {};
+  if (!method.paper || !scene.IsOfThePaper()) return {};
   const bool is_moon = scene.IsMoon();
   return {Text("%.3f", is_moon ? method.paper->moon_rmse : method.paper->mars_rmse),
           Text("%.3f", is_moon ? method.paper->moon_mean : method.paper->mars_mean)};
@@ -133,7 +133,7 @@ DocumentTable MatchTable(const ReproducePlan& plan, const std::vector<SceneResul
     }
     pairs = std::max(pairs, found.size());
     const auto& paper = scene.IsMoon() ? method.paper_moon : method.paper_mars;
-    const bool shown = paper && same_sun && (scene.IsMoon() || scene.IsMars());
+    const bool shown = paper && same_sun && scene.IsOfThePaper();
     table.rows.push_back({{method.label},
                           {shown ? std::to_string(paper->found) : "–"},
                           {shown ? std::to_string(paper->correct) : "–"},
@@ -252,7 +252,7 @@ DocumentTable GainTable(const ReproducePlan& plan, const std::vector<SceneResult
     for (const Scene& scene : plan.scenes) {
       std::vector<DocumentCell> row = {
           {scene.name + ": " + comparison.title}, {"–"}, {"–"}, {"–"}, {"–"}};
-      if (comparison.is_of_the_paper && (scene.IsMoon() || scene.IsMars())) {
+      if (comparison.is_of_the_paper && scene.IsOfThePaper()) {
         row[1].text = scene.IsMoon() ? "0.723" : "0.054";
         row[2].text = scene.IsMoon() ? "20" : "7";
       }

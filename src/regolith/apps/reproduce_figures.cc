@@ -61,7 +61,7 @@ void DrawPair(const fs::path& pair, const std::vector<Eigen::Vector2f>& first_po
 
 /// "Figure 8: ", where the paper has that figure.
 std::string Numbered(const Scene& scene, const char* moon, const char* mars) {
-  if (!scene.IsMoon() && !scene.IsMars()) return "";
+  if (!scene.IsOfThePaper()) return "";
   return std::string("Figure ") + (scene.IsMoon() ? moon : mars) + ": ";
 }
 
@@ -106,11 +106,10 @@ void AddMatchFigures(const CellMaker& maker, const SceneResults& result,
 DocumentSection TrackFigures(const CellMaker& maker, const SceneResults& result) {
   DocumentSection section;
   const Scene& scene = result.scene;
-  const bool is_of_the_paper = scene.IsMoon() || scene.IsMars();
-  section.title =
-      (is_of_the_paper ? std::string("Figures 12 and 13 (") + (scene.IsMoon() ? "b" : "a") + "): "
-                       : std::string("Trajectories: ")) +
-      scene.name;
+  section.title = (scene.IsMoon()         ? "Figures 12 and 13 (b): "
+                   : scene.IsOfThePaper() ? "Figures 12 and 13 (a): "
+                                          : "Trajectories: ") +
+                  scene.name;
   const fs::path folder = maker.SceneFolder(result.scene, result.seed);
   const fs::path truth_file = folder / "ground_truth.tum";
   if (!fs::exists(truth_file)) return section;

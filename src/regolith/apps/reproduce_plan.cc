@@ -8,6 +8,7 @@
 #include "regolith/config/install_paths.h"
 #include "regolith/core/check.h"
 #include "regolith/core/error.h"
+#include "regolith/core/join.h"
 
 namespace regolith {
 namespace {
@@ -56,17 +57,19 @@ void CheckRange(const std::string& option, double value, double least, double mo
   throw InputError(option, Concatenate("is ", value, "; expected ", least, " to ", most));
 }
 
+void CheckKnown(const std::string& option, const std::string& name,
+                const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  throw InputError(option + " " + name, "is not one of: " + Join(known));
+}
+
 /// Scenarios by name; those of `experiments` keep what they are called there.
 std::vector<Scene> NamedScenes(const std::vector<std::string>& scenarios,
                                const std::vector<Scene>& experiments) {
   const std::vector<std::string> known = ConfigNames("scenarios");
   std::vector<Scene> scenes;
   for (const std::string& scenario : scenarios) {
-    if (std::find(known.begin(), known.end(), scenario) == known.end()) {
-      std::string names;
-      for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
-      throw InputError("--scenarios " + scenario, "is not one of: " + names);
-    }
+    CheckKnown("--scenarios", scenario, known);
     const auto experiment =
         std::find_if(experiments.begin(), experiments.end(),
                      [&](const Scene& one) { return one.scenario == scenario; });
@@ -76,16 +79,12 @@ std::vector<Scene> NamedScenes(const std::vector<std::string>& scenarios,
 }
 
 void KeepMethods(const std::vector<std::string>& keys, std::vector<TrackMethod>* methods) {
-  std::string known;
-  for (const TrackMethod& method : *methods) known += (known.empty() ? "" : ", ") + method.key;
+  std::vector<std::string> known;
+  for (const TrackMethod& method : *methods) known.push_back(method.key);
   const auto is_named = [&](const TrackMethod& method) {
     return std::find(keys.begin(), keys.end(), method.key) != keys.end();
   };
-  for (const std::string& key : keys) {
-    const bool is_known = std::any_of(methods->begin(), methods->end(),
-                                      [&](const TrackMethod& one) { return one.key == key; });
-    if (!is_known) throw InputError("--methods " + key, "is not one of: " + known);
-  }
+  for (const std::string& key : keys) CheckKnown("--methods", key, known);
   methods->erase(std::remove_if(methods->begin(), methods->end(),
                                 [&](const TrackMethod& method) { return !is_named(method); }),
                  methods->end());

@@ -51,7 +51,7 @@ struct Scene {
   std::string scenario;  ///< name in config/scenarios
 
   bool IsMoon() const { return name == "Moon"; }
-  bool IsMars() const { return name == "Mars"; }
+  bool IsOfThePaper() const { return IsMoon() || name == "Mars"; }
 };
 
 /// All that a reproduction makes.

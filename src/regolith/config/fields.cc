@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "regolith/core/error.h"
+#include "regolith/core/join.h"
 #include "regolith/sensor/rig_calibration.h"
 
 namespace regolith {
@@ -83,12 +84,6 @@ std::string Nearest(const std::string& key, const std::set<std::string>& known) 
     }
   }
   return best;
-}
-
-std::string Join(const std::set<std::string>& words) {
-  std::string joined;
-  for (const std::string& word : words) joined += (joined.empty() ? "" : ", ") + word;
-  return joined;
 }
 
 // The shortest decimal text that reads back as the same double. YAML 1.1 takes 2e-05 for a word.

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "regolith/core/error.h"
+#include "regolith/core/join.h"
 
 namespace regolith {
 
@@ -43,12 +44,6 @@ std::vector<std::string> YamlNames(const fs::path& folder) {
   return names;
 }
 
-std::string Joined(const std::vector<std::string>& names) {
-  std::string joined;
-  for (const std::string& name : names) joined += (joined.empty() ? "" : ", ") + name;
-  return joined;
-}
-
 std::optional<std::string> FindNamed(const fs::path& folder, const std::string& name) {
   const fs::path named = folder / (name + ".yaml");
   if (name.find('/') == std::string::npos && fs::is_regular_file(named)) return named;
@@ -73,7 +68,7 @@ std::vector<std::string> ConfigNames(const std::string& kind) {
 std::string FindConfig(const std::string& kind, const std::string& name) {
   if (const auto found = FindNamed(ConfigFolder(kind), name)) return *found;
   throw InputError(name, "is neither a file nor one of the " + kind + ": " +
-                             Joined(YamlNames(ConfigFolder(kind))));
+                             Join(YamlNames(ConfigFolder(kind))));
 }
 
 std::vector<std::string> ModelNames() {
@@ -83,7 +78,7 @@ std::vector<std::string> ModelNames() {
 
 std::string FindModel(const std::string& name) {
   if (const auto found = FindNamed(ModelFolder(), name)) return *found;
-  const std::string known = Joined(ModelNames());
+  const std::string known = Join(ModelNames());
   throw InputError(name, "is neither the manifest of a network (YAML) nor one of the models: " +
                              (known.empty() ? "none are installed" : known));
 }

@@ -145,7 +145,13 @@ void LidarOdometry::TakeUpImu(const ImuSample& sample) {
   silent_imu_->AddImu(sample);
   if (!last_) return;
   const Eigen::Vector3d v_world = last_->T_world_body.rotation * velocity_body_.tail<3>();
-  if (!silent_imu_->Join(*last_, v_world)) return;
+  if (!silent_imu_->Join(*last_, v_world)) {
+    // Too slow an IMU stays unused, and is said.
+    if (silent_imu_->state() == InertialTracker::State::kUnusable) {
+      unusable_imu_ = std::exchange(silent_imu_, {});
+    }
+    return;
+  }
   inertial_ = std::exchange(silent_imu_, {});
   for (const WheelOdometry& sample_of_wheels : wheels_) inertial_->AddWheels(sample_of_wheels);
   wheels_.clear();

@@ -205,6 +205,21 @@ TEST(LidarOdometry, AnImuThatComesLateIsTakenUpInMidDrive) {
   EXPECT_NE(odometry.Notices()[0].find("first scans"), std::string::npos) << odometry.Notices()[0];
 }
 
+TEST(LidarOdometry, AnImuThatComesLateAndTooSlowlyIsLeftAsideAndSaid) {
+  ThreadPool threads(1);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  std::vector<ScanEstimate> estimates;
+  for (int i = 0; i < 100; ++i) {
+    if (i > 50) Append(odometry.AddImu(ImuAt(0.1 * i)), &estimates);
+    Append(odometry.AddScan(ScanAt(i, true)), &estimates);
+  }
+  EXPECT_EQ(estimates.back().leader, "lidar");
+  const std::vector<std::string> notices = odometry.Notices();
+  ASSERT_EQ(notices.size(), 2U);
+  EXPECT_NE(notices[0].find("not used"), std::string::npos) << notices[0];
+  EXPECT_NE(notices[1].find("silent"), std::string::npos) << notices[1];
+}
+
 TEST(LidarOdometry, PosesAreGivenInATimeWithoutScans) {
   ThreadPool threads(1);
   LidarOdometry odometry({}, Rig(true), &threads);

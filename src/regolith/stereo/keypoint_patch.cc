@@ -56,12 +56,14 @@ bool SampleSquare(const KeypointPatch& patch, const Eigen::Vector2f& place,
   return true;
 }
 
-/// Takes mean and contrast away; false where there is none.
-bool Normalise(Square* square) {
+/// Takes mean and contrast away; gives the contrast (standard deviation, grey levels), or nothing
+/// where that is too little.
+std::optional<float> Normalise(Square* square) {
   *square -= square->mean();
   const float deviation = std::sqrt(square->square().mean());
-  *square /= std::max(deviation, kLeastDeviation);
-  return deviation >= kLeastDeviation;
+  if (deviation < kLeastDeviation) return std::nullopt;
+  *square /= deviation;
+  return deviation;
 }
 
 }  // namespace
@@ -90,17 +92,14 @@ std::optional<Eigen::Vector2f> AlignPatch(const KeypointPatch& first,
   Framed framed;
   if (!SampleSquare(first, first_place, first_by_second, &framed)) return std::nullopt;
   Square wanted = framed.block<kCompared, kCompared>(1, 1);
-  if (!Normalise(&wanted)) return std::nullopt;
-  const float contrast = std::sqrt(
-      (framed.block<kCompared, kCompared>(1, 1) - framed.block<kCompared, kCompared>(1, 1).mean())
-          .square()
-          .mean());
+  const std::optional<float> contrast = Normalise(&wanted);
+  if (!contrast) return std::nullopt;
   const Square by_column =
       (framed.block<kCompared, kCompared>(1, 2) - framed.block<kCompared, kCompared>(1, 0)) *
-      (0.5F / contrast);
+      (0.5F / *contrast);
   const Square by_row =
       (framed.block<kCompared, kCompared>(2, 1) - framed.block<kCompared, kCompared>(0, 1)) *
-      (0.5F / contrast);
+      (0.5F / *contrast);
   Eigen::Matrix2f information;
   information << by_column.square().mean(), (by_column * by_row).mean(),
       (by_column * by_row).mean(), by_row.square().mean();

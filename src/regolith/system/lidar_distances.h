@@ -12,6 +12,9 @@
 
 namespace regolith {
 
+/// The returns of a scan that lidar odometry has placed, for distances in its world.
+void AddReturns(const ScanEstimate& estimate, const SE3& T_imu_lidar, LidarDepth* depth);
+
 /// Distances for visual odometry from the scans that lidar odometry has placed. The returns lie in
 /// the lidar's world, the camera in its own: the last scan whose pose both know joins the two.
 class LidarDistances : public DistanceSource {

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "regolith/system/lidar_distances.h"
+
 namespace regolith {
 namespace {
 
@@ -25,12 +27,7 @@ PlaceObserver::PlaceObserver(const PipelineOptions& options, const RigCalibratio
       depth_(options.lidar_depth) {}
 
 PlaceView PlaceObserver::Observe(const KeyframeSight& sight, const SE3& T_odom_body) {
-  for (const auto& scan : sight.scans) {
-    std::vector<Eigen::Vector3f> points;
-    points.reserve(scan->points.size());
-    for (const MapPoint& point : scan->points) points.push_back(point.position);
-    depth_.Add(scan->stamp, points, scan->T_world_body * T_imu_lidar_.translation);
-  }
+  for (const auto& scan : sight.scans) AddReturns(*scan, T_imu_lidar_, &depth_);
   FeatureSet features;
   extractor_->Extract(sight.frame->image, mask_ ? &*mask_ : nullptr, max_keypoints_, &features);
 
