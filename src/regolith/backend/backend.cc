@@ -58,7 +58,7 @@ void Backend::AddNode(const KeyframeInput& input) {
   odometry_.Append(input.T_odom_body, step);
   last_covariance_ = input.covariance;
   keyframes_.Append(input.time, way, input.points_body);
-  keyframes_.DescribeNewest(graph_);
+  keyframes_.DescribeNewest(graph_, odometry_);
 }
 
 bool Backend::FindLoops() {
@@ -88,8 +88,8 @@ bool Backend::Verify(const LoopCandidate& candidate, size_t new_keyframe) {
   const size_t old = candidate.old_keyframe;
   LoopRecord record{old, new_keyframe, candidate.source, {}};
   record.verdict = verifier_.Verify(
-      keyframes_.Submap(new_keyframe, old + 1, new_keyframe + 1, graph_),
-      keyframes_.Submap(old, 0, new_keyframe, graph_), candidate.guess, graph_.pose(old).rotation);
+      keyframes_.Submap(new_keyframe, old + 1, new_keyframe + 1, graph_, odometry_),
+      keyframes_.Submap(old, 0, new_keyframe, graph_, odometry_), candidate.guess, graph_.pose(old).rotation);
   return Enter(std::move(record));
 }
 

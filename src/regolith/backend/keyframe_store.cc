@@ -23,9 +23,9 @@ void KeyframeStore::Append(TimeNs time, double way, Span<const Eigen::Vector3d> 
   keyframes_.push_back(std::move(keyframe));
 }
 
-void KeyframeStore::DescribeNewest(const FactorGraph& graph) {
+void KeyframeStore::DescribeNewest(const FactorGraph& graph, const OdometryChain& odometry) {
   const size_t newest = keyframes_.size() - 1;
-  std::vector<Eigen::Vector3d> points = Submap(newest, 0, keyframes_.size(), graph);
+  std::vector<Eigen::Vector3d> points = Submap(newest, 0, keyframes_.size(), graph, odometry);
   const Eigen::Quaterniond R_world_body = graph.pose(newest).rotation;
   for (Eigen::Vector3d& point : points) point = R_world_body * point;
   const ReliefImage relief(points, relief_);
@@ -37,7 +37,8 @@ void KeyframeStore::ForgetPoints(size_t index) {
 }
 
 std::vector<Eigen::Vector3d> KeyframeStore::Submap(size_t index, size_t first, size_t last,
-                                                   const FactorGraph& graph) const {
+                                                   const FactorGraph& graph,
+                                                   const OdometryChain& odometry) const {
   std::vector<Eigen::Vector3d> points;
   const SE3 T_body_world = graph.pose(index).Inverse();
   const auto add = [&](size_t i) {
@@ -47,7 +48,11 @@ std::vector<Eigen::Vector3d> KeyframeStore::Submap(size_t index, size_t first, s
     }
   };
   const auto is_near = [&](size_t i) {
-    return std::abs(keyframes_[i].way - keyframes_[index].way) <= options_.submap_length;
+    const double way = std::abs(keyframes_[i].way - keyframes_[index].way);
+    const double variance =
+        odometry.Between(index, i).covariance.bottomRightCorner<3, 3>().trace();
+    return way <= options_.submap_length &&
+           variance <= options_.submap_sigma * options_.submap_sigma;
   };
   // Its own points first: they take the places in the maps.
   add(index);

@@ -37,13 +37,15 @@ class KeyframeStore {
   /// `points_body`: m, the whole scan; what the options keep of it is kept.
   void Append(TimeNs time, double way, Span<const Eigen::Vector3d> points_body);
   /// Describes the newest by the ground around it.
-  void DescribeNewest(const FactorGraph& graph);
+  void DescribeNewest(const FactorGraph& graph, const OdometryChain& odometry);
   void ForgetPoints(size_t index);
 
   /// The ground around a keyframe, in its body frame: points of those within the submap's length
-  /// along the drive, from `first` to `last` (exclusive), placed by the graph.
+  /// along the drive, from `first` to `last` (exclusive), placed by the graph. It ends where
+  /// odometry went blind for a while: what lies beyond would be doubled ground.
   std::vector<Eigen::Vector3d> Submap(size_t index, size_t first, size_t last,
-                                      const FactorGraph& graph) const;
+                                      const FactorGraph& graph,
+                                      const OdometryChain& odometry) const;
 
  private:
   KeyframeOptions options_;

@@ -108,6 +108,7 @@ void Fields(Archive& archive, LidarOdometryOptions& lio) {
   archive("scan_voxel_size", lio.scan_voxel_size);
   archive("max_points", lio.max_points);
   archive("drift", lio.drift);
+  archive("max_lost_sigma", lio.max_lost_sigma);
   archive("matcher", lio.matcher);
   archive("features", lio.features);
   archive("feature_matcher", lio.feature_matcher);

@@ -17,7 +17,7 @@ using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eig
 /// blocks leaves about 1e-14. What a rover knows least lies above 1e-8.
 constexpr double kNoInformation = 1e-12;
 /// Variance of what nothing is known of, in the units of its block.
-constexpr double kUnknown = 1e12;
+constexpr double kUnknown = 1e6;
 
 /// The inverse, with nothing for directions without information.
 Eigen::MatrixXd PseudoInverse(const Eigen::MatrixXd& information) {

@@ -76,6 +76,20 @@ void InertialFilter::MoveInto(const SE3& T_world_imu, const Eigen::Vector3d& v_w
   covariance_.block<3, 3>(kGravity, kGravity) = turn * gravity * turn.transpose();
 }
 
+Matrix6d InertialFilter::BeginWorld() {
+  const Matrix6d pose_covariance = PoseCovariance();
+  // The attitude's error becomes the new world's, which turns what is known in the world's axes.
+  const Eigen::Matrix3d rotation = state_.T_world_imu.rotation.toRotationMatrix();
+  Covariance transition = Covariance::Identity();
+  transition.topLeftCorner<6, 6>().setZero();
+  transition.block<3, 3>(kVelocity, kRotation) = Hat(state_.v_world_imu) * rotation;
+  transition.block<3, 3>(kGravity, kRotation) = Hat(gravity_world_) * rotation;
+  covariance_ = (transition * covariance_ * transition.transpose()).eval();
+  Diagonal<kRotation>(covariance_).setConstant(kFixedSigma * kFixedSigma);
+  Diagonal<kPosition>(covariance_).setConstant(kFixedSigma * kFixedSigma);
+  return pose_covariance;
+}
+
 void InertialFilter::Propagate(const ImuSample& from, const ImuSample& to) {
   const double dt = SecondsBetween(from.time, to.time);
   if (dt <= 0.0) return;

@@ -31,6 +31,11 @@ class InertialFilter {
   /// it, and gravity lies where the first samples felt it.
   void MoveInto(const SE3& T_world_imu, const Eigen::Vector3d& v_world_imu, double velocity_sigma);
 
+  /// Lets a new world begin at the present pose, which is exact in it, with the axes and the origin
+  /// that the old one is thought to have. Returns how far the new one may lie from the old: the
+  /// pose's covariance until now.
+  Matrix6d BeginWorld();
+
   const NavState& state() const { return state_; }
   const Eigen::Vector3d& gravity_world() const { return gravity_world_; }
   /// Share by which the wheels say more than the way that was gone.

@@ -143,6 +143,34 @@ TEST(InertialFilter, GravityKeepsItsPlaceWhereTheWorldIsAnother) {
   EXPECT_LT(along.dot(filter.covariance().block<3, 3>(15, 15) * along), 1e-4);
 }
 
+TEST(InertialFilter, ANewWorldTakesThePosesDoubtAndLeavesWhatTheBodyKnows) {
+  const auto samples = RestingSamples(400, ExpSo3({0.1, -0.05, 0.4}), {0.01, 0.02, 0.0},
+                                      Eigen::Vector3d::Zero());
+  InertialFilter filter = RestingFilter(samples);
+  filter.AbsorbVelocity({0.5, 0.1, 0.0}, 0.01);
+  filter.PropagateBlindly(AddSeconds(filter.state().time, 0.5));
+  // Velocity and gravity in the body's axes are what they were, and so is the doubt of them.
+  const auto in_body = [&] {
+    const Eigen::Matrix3d R_imu_world =
+        filter.state().T_world_imu.rotation.conjugate().toRotationMatrix();
+    Eigen::Matrix<double, 6, InertialFilter::kSize> jacobian;
+    jacobian.setZero();
+    jacobian.block<3, 3>(0, 0) = Hat(R_imu_world * filter.state().v_world_imu);
+    jacobian.block<3, 3>(0, 6) = R_imu_world;
+    jacobian.block<3, 3>(3, 0) = Hat(R_imu_world * filter.gravity_world());
+    jacobian.block<3, 3>(3, 15) = R_imu_world;
+    return Matrix6d(jacobian * filter.covariance() * jacobian.transpose());
+  };
+  const Matrix6d known = in_body();
+  const Matrix6d pose = filter.PoseCovariance();
+  const SE3 T_world_imu = filter.state().T_world_imu;
+  ASSERT_GT(pose.diagonal().head<3>().minCoeff(), 1e-2);
+  EXPECT_LT((filter.BeginWorld() - pose).norm(), 1e-12);
+  EXPECT_LT(filter.PoseCovariance().diagonal().maxCoeff(), 1e-7);
+  EXPECT_LT((in_body() - known).norm(), 1e-6);
+  EXPECT_LT(Minus(filter.state().T_world_imu, T_world_imu).norm(), 1e-12);
+}
+
 TEST(InertialFilter, DoubtGrowsWhileItIsBlind) {
   const auto samples = RestingSamples(400, Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(),
                                       Eigen::Vector3d::Zero());

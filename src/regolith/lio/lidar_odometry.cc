@@ -50,6 +50,7 @@ void LidarOdometryOptions::Check() const {
   REGOLITH_CHECK(initialization_window >= rest.min_duration,
                  "initialization_window=", initialization_window);
   REGOLITH_CHECK(rest_window >= rest.min_duration, "rest_window=", rest_window);
+  REGOLITH_CHECK(max_lost_sigma > 0.0, "max_lost_sigma=", max_lost_sigma);
   REGOLITH_CHECK(max_imu_gap > 0.0, "max_imu_gap=", max_imu_gap);
 }
 
@@ -57,14 +58,9 @@ LidarOdometry::LidarOdometry(const LidarOdometryOptions& options, const RigCalib
                              ThreadPool* threads)
     : options_(options), rig_(rig), threads_(threads), drift_(options.drift) {
   options.Check();
-  VoxelMapOptions level = options.map;
-  const int levels = options.features ? 0 : options.map_levels;
-  for (int i = 0; i < levels; ++i, level.voxel_size *= options.map_growth) {
-    maps_.emplace_back(level);
-  }
   REGOLITH_CHECK(rig.lidar.has_value() || !options.lidar, "the rig has no lidar");
+  BeginMap();
   if (rig.lidar) T_body_lidar_ = rig.lidar->T_imu_lidar;
-  if (options.features && rig.lidar) features_.emplace(options.feature_matcher, rig.lidar->rings);
   if (options.wheels && rig.wheels) T_body_base_ = rig.wheels->T_imu_base;
   if (options.imu && rig.imu) inertial_.emplace(options, rig);
 }
@@ -203,7 +199,7 @@ ScanMatch LidarOdometry::Match(const LidarScan& scan,
   const ScanMatch match = features_ ? features_->Match(scan, points_body, guess.T_world_body,
                                                        guess.covariance, threads_)
                                     : MatchPoints(points_body, guess);
-  if (!match.used_scan && scans_ > 0 && !points_body.empty()) ++unmatched_scans_;
+  if (!match.used_scan && !is_map_new_ && !points_body.empty()) ++unmatched_scans_;
   return match;
 }
 
@@ -217,12 +213,38 @@ ScanMatch LidarOdometry::MatchPoints(const std::vector<Eigen::Vector3d>& points_
                    threads_);
 }
 
+void LidarOdometry::BeginMap() {
+  is_map_new_ = true;
+  maps_.clear();
+  VoxelMapOptions level = options_.map;
+  const int levels = options_.features ? 0 : options_.map_levels;
+  for (int i = 0; i < levels; ++i, level.voxel_size *= options_.map_growth) {
+    maps_.emplace_back(level);
+  }
+  if (options_.features && rig_.lidar) {
+    features_.emplace(options_.feature_matcher, rig_.lidar->rings);
+  }
+}
+
+/// After a time without scans the map may be metres away from where the filter sees it. Matched
+/// against its edge the pose would jump, and against itself a new map must not doubt what the
+/// filter doubts of the way to it. Old ground is for loop closure to find.
+void LidarOdometry::BeginMapWhereLost() {
+  InertialFilter& filter = inertial_->filter();
+  const Eigen::Matrix3d position = filter.PoseCovariance().bottomRightCorner<3, 3>();
+  if (is_placed_ || position.trace() < options_.max_lost_sigma * options_.max_lost_sigma) return;
+  BeginMap();
+  drift_.BeginMap(filter.BeginWorld());
+  ++maps_begun_;
+}
+
 void LidarOdometry::AddDrift(const SE3& T_world_body, ScanEstimate* estimate) {
   // Degenerate directions are as uncertain as the estimate itself says; the map adds nothing.
   if (last_pose_ && estimate->match.used_scan) {
     drift_.Advance(*last_pose_, T_world_body, ObservedCovariance(estimate->match.observable));
   }
   last_pose_ = T_world_body;
+  is_placed_ = estimate->match.used_scan;
   estimate->covariance += drift_.covariance();
 }
 
@@ -235,6 +257,7 @@ std::vector<MapPoint> LidarOdometry::ExtendMap(const LidarScan& scan,
     points_world[i] = T_world_body * points_body[i];
     map_points[i] = {points_world[i].cast<float>(), scan.points[i].intensity};
   }
+  if (!points_body.empty()) is_map_new_ = false;
   if (features_) features_->Extend(T_world_body);
   for (VoxelMap& map : maps_) {
     map.Add(points_world, T_world_body.translation);
@@ -257,6 +280,7 @@ ScanEstimate LidarOdometry::EstimateInertial(const LidarScan& scan) {
   if (options_.lidar) {
     points_body = Deskew(scan, T_body_lidar_, motion, predicted);
     stopwatch.Lap("deskew");
+    if (!points_body.empty()) BeginMapWhereLost();
     estimate.match =
         Match(scan, points_body, {filter.state().T_world_imu, filter.PoseCovariance()});
     if (estimate.match.used_scan) {
@@ -360,6 +384,9 @@ std::vector<std::string> LidarOdometry::Notices() const {
   add(invalid_points_, " points were not finite and were left out");
   add(empty_scans_, " scans had no points");
   add(unmatched_scans_, " scans met too few planes of the map; the prediction stands for them");
+  add(maps_begun_,
+      " times scans came back when the rover could be metres off: its map begins anew there, and "
+      "old ground is found by loops alone");
   add(repeated_scans_, " scans were not later than the one before and were left out");
   return notices;
 }

@@ -64,6 +64,8 @@ class LidarOdometry : public ScanOdometry {
   ScanMatch Match(const LidarScan& scan, const std::vector<Eigen::Vector3d>& points_body,
                   const Guess& guess);
   ScanMatch MatchPoints(const std::vector<Eigen::Vector3d>& points_body, const Guess& guess) const;
+  void BeginMap();
+  void BeginMapWhereLost();
   void AddDrift(const SE3& T_world_body, ScanEstimate* estimate);
   std::vector<MapPoint> ExtendMap(const LidarScan& scan,
                                   const std::vector<Eigen::Vector3d>& points_body,
@@ -76,8 +78,10 @@ class LidarOdometry : public ScanOdometry {
   ThreadPool* threads_;
   std::vector<VoxelMap> maps_;                  ///< the same points, from fine to coarse voxels
   std::optional<FeatureScanMatcher> features_;  ///< in the place of `maps_`
+  bool is_map_new_ = true;                      ///< there is nothing in it
   MapDrift drift_;
   std::optional<SE3> last_pose_;  ///< that `drift_` has reached
+  bool is_placed_ = false;        ///< by a match of the scan before
   std::deque<Waiting> waiting_;
   std::optional<InertialTracker> inertial_;      ///< nothing without an IMU
   std::optional<InertialTracker> unusable_imu_;  ///< too slow an IMU, for its notice
@@ -97,6 +101,7 @@ class LidarOdometry : public ScanOdometry {
   size_t early_scans_ = 0;
   size_t unmatched_scans_ = 0;
   size_t repeated_scans_ = 0;
+  size_t maps_begun_ = 0;
 };
 
 }  // namespace regolith

@@ -25,6 +25,9 @@ struct LidarOdometryOptions {
   double scan_voxel_size = 0.35;  ///< m, one point a voxel is matched
   int max_points = 6000;          ///< more than these are thinned further
   MapDriftOptions drift;
+  /// m, 1 σ: a rover that has not been placed by the scan before and may be farther off than this
+  /// begins a new map, since in the old one it might be placed wrongly.
+  double max_lost_sigma = 1.0;
   double initialization_window = 1.0;  ///< s of IMU samples that start the filter
   RestDetectionOptions rest;
   double rest_window = 0.5;  ///< s of IMU samples that must be still to say that the rover stands

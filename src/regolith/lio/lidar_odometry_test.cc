@@ -247,6 +247,44 @@ TEST(LidarOdometry, PosesAreGivenInATimeWithoutScans) {
   EXPECT_TRUE(odometry.Notices().empty());
 }
 
+TEST(LidarOdometry, AfterALongTimeWithoutScansTheMapBeginsAnew) {
+  ThreadPool threads(1);
+  LidarOdometryOptions options;
+  options.max_lost_sigma = 0.3;
+  LidarOdometry odometry(options, Rig(true), &threads);
+  std::vector<ScanEstimate> estimates;
+  for (int i = 0; i < 2300; ++i) {
+    const double time = i * 0.005;
+    const bool is_blind = i >= 400 && i < 2000;
+    ImuSample sample = ImuAt(time);
+    if (is_blind) sample.specific_force.x() += 0.05;  // 1.6 m and 0.4 m/s in the end
+    Append(odometry.AddImu(sample), &estimates);
+    if (i % 20 != 0) continue;
+    if (is_blind) {
+      Append(odometry.AddStamp(FromSeconds(time)), &estimates);
+    } else {
+      Append(odometry.AddScan(ScanAt(i / 20, false)), &estimates);
+    }
+  }
+  Append(odometry.Finish(), &estimates);
+  ASSERT_EQ(estimates.size(), 115U);
+  const auto error_of = [&](size_t from, size_t to) {
+    const SE3 truth = BodyAt(ToSeconds(estimates[from].stamp)).Inverse() *
+                      BodyAt(ToSeconds(estimates[to].stamp));
+    const SE3 motion = estimates[from].T_world_body.Inverse() * estimates[to].T_world_body;
+    return (motion.translation - truth.translation).norm();
+  };
+  EXPECT_GT(error_of(19, 100), 1.0);
+  EXPECT_LT(error_of(100, 103), 0.15);  // it does not jump,
+  EXPECT_LT(error_of(105, 114), 0.05);  // and goes on well.
+  // The doubt of the blind way stays, and is one of the place.
+  const Matrix6d& covariance = estimates.back().covariance;
+  EXPECT_GT(covariance.diagonal().tail<3>().sum(), 0.3 * 0.3);
+  EXPECT_LT(covariance.diagonal().head<3>().sum(), 0.05 * 0.05);
+  ASSERT_EQ(odometry.Notices().size(), 1U);
+  EXPECT_NE(odometry.Notices()[0].find("begins anew"), std::string::npos);
+}
+
 TEST(LidarOdometry, WithoutImuAndWheelsNoPoseIsInvented) {
   ThreadPool threads(1);
   LidarOdometry odometry({}, Rig(false), &threads);

@@ -18,6 +18,9 @@ class MapDrift {
   /// later pose against the map.
   void Advance(const SE3& T_map_from, const SE3& T_map_to, const Matrix6d& match_covariance);
 
+  /// A new map begins at the latest pose, whose covariance against the old one is given.
+  void BeginMap(const Matrix6d& pose_covariance) { covariance_ += pose_covariance; }
+
   /// Of the latest pose, as Plus() perturbs it: [rotation (right, rad), position (m)].
   const Matrix6d& covariance() const { return covariance_; }
 
