@@ -89,7 +89,8 @@ bool Backend::Verify(const LoopCandidate& candidate, size_t new_keyframe) {
   LoopRecord record{old, new_keyframe, candidate.source, {}};
   record.verdict = verifier_.Verify(
       keyframes_.Submap(new_keyframe, old + 1, new_keyframe + 1, graph_, odometry_),
-      keyframes_.Submap(old, 0, new_keyframe, graph_, odometry_), candidate.guess, graph_.pose(old).rotation);
+      keyframes_.Submap(old, 0, new_keyframe, graph_, odometry_), candidate.guess,
+      graph_.pose(old).rotation);
   return Enter(std::move(record));
 }
 

@@ -17,15 +17,16 @@ struct KeyframeOptions {
   double point_spacing = 0.25;  ///< m, of the points kept …
   double radius = 20.0;         ///< … within this many m
   double submap_length = 4.0;   ///< m of the drive on either side, that loops are matched with
-  double submap_sigma = 0.5;    ///< m, 1 σ: ground that odometry lost more on the way to is left out
+  double submap_sigma = 0.5;  ///< m, 1 σ: ground that odometry lost more on the way to is left out
   /// Of an odometry step, least 1 σ.
   double floor_rotation_sigma = 1e-4;  ///< rad
   double floor_position_sigma = 1e-3;  ///< m
   double gravity_sigma = 3e-3;         ///< rad, of an inertial odometry's up
 
   void Check() const {
-    for (const double value : {distance, angle, seconds, point_spacing, radius, submap_length,
-                               submap_sigma, floor_rotation_sigma, floor_position_sigma, gravity_sigma}) {
+    for (const double value :
+         {distance, angle, seconds, point_spacing, radius, submap_length, submap_sigma,
+          floor_rotation_sigma, floor_position_sigma, gravity_sigma}) {
       REGOLITH_CHECK(value > 0.0, "value=", value);
     }
   }

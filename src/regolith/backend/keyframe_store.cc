@@ -49,8 +49,7 @@ std::vector<Eigen::Vector3d> KeyframeStore::Submap(size_t index, size_t first, s
   };
   const auto is_near = [&](size_t i) {
     const double way = std::abs(keyframes_[i].way - keyframes_[index].way);
-    const double variance =
-        odometry.Between(index, i).covariance.bottomRightCorner<3, 3>().trace();
+    const double variance = odometry.Between(index, i).covariance.bottomRightCorner<3, 3>().trace();
     return way <= options_.submap_length &&
            variance <= options_.submap_sigma * options_.submap_sigma;
   };

@@ -144,8 +144,8 @@ TEST(InertialFilter, GravityKeepsItsPlaceWhereTheWorldIsAnother) {
 }
 
 TEST(InertialFilter, ANewWorldTakesThePosesDoubtAndLeavesWhatTheBodyKnows) {
-  const auto samples = RestingSamples(400, ExpSo3({0.1, -0.05, 0.4}), {0.01, 0.02, 0.0},
-                                      Eigen::Vector3d::Zero());
+  const auto samples =
+      RestingSamples(400, ExpSo3({0.1, -0.05, 0.4}), {0.01, 0.02, 0.0}, Eigen::Vector3d::Zero());
   InertialFilter filter = RestingFilter(samples);
   filter.AbsorbVelocity({0.5, 0.1, 0.0}, 0.01);
   filter.PropagateBlindly(AddSeconds(filter.state().time, 0.5));

@@ -269,8 +269,8 @@ TEST(LidarOdometry, AfterALongTimeWithoutScansTheMapBeginsAnew) {
   Append(odometry.Finish(), &estimates);
   ASSERT_EQ(estimates.size(), 115U);
   const auto error_of = [&](size_t from, size_t to) {
-    const SE3 truth = BodyAt(ToSeconds(estimates[from].stamp)).Inverse() *
-                      BodyAt(ToSeconds(estimates[to].stamp));
+    const SE3 truth =
+        BodyAt(ToSeconds(estimates[from].stamp)).Inverse() * BodyAt(ToSeconds(estimates[to].stamp));
     const SE3 motion = estimates[from].T_world_body.Inverse() * estimates[to].T_world_body;
     return (motion.translation - truth.translation).norm();
   };

@@ -225,8 +225,7 @@ void VisualPart::TellVelocity(const VioEstimate& estimate) {
   // What the window knows as of its last keyframe: after a blind time hardly anything, though what
   // it sees since may fit, since standing still looks like driving past ground at infinity.
   const double variance = estimate.covariance.block<3, 3>(6, 6).trace();
-  velocities_.push_back(
-      {state.time, state.T_world_imu.rotation.conjugate() * state.v_world_imu,
+  velocities_.push_back({state.time, state.T_world_imu.rotation.conjugate() * state.v_world_imu,
                          std::max(velocity_sigma_, std::sqrt(std::max(variance, 0.0)))});
 }
 
