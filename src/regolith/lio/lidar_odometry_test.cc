@@ -494,6 +494,22 @@ TEST(LidarOdometry, TheLidarTeachesTheSlipOfTheWheels) {
   EXPECT_LT(WorstError(estimates), 0.10);
 }
 
+TEST(LidarOdometry, WheelsCountLessWhereTheLidarPlaces) {
+  ThreadPool threads(2);
+  RigCalibration rig = Rig(true);
+  rig.wheels.emplace();
+  LidarOdometryOptions options;
+  options.wheels = true;
+  options.filter.wheels.placed_inflation = 1.0;
+  const auto whole = [](int, LidarScan*) {};
+  // Wheels that say that the rover stands, more than slip can explain.
+  LidarOdometry as_ever(options, rig, &threads);
+  const double error_as_ever = WorstError(DriveWith(as_ever, 8.0, whole, -1.0));
+  options.filter.wheels.placed_inflation = 3.0;
+  LidarOdometry less(options, rig, &threads);
+  EXPECT_LT(WorstError(DriveWith(less, 8.0, whole, -1.0)), 0.9 * error_as_ever);
+}
+
 TEST(LidarOdometry, WheelsAreTheGuessWithoutAnImu) {
   ThreadPool threads(2);
   RigCalibration rig = Rig(false);
