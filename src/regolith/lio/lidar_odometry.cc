@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "regolith/cloud/downsample.h"
 #include "regolith/core/check.h"
 #include "regolith/core/error.h"
 #include "regolith/imu/wheel_preintegration.h"
@@ -56,10 +55,13 @@ void LidarOdometryOptions::Check() const {
 
 LidarOdometry::LidarOdometry(const LidarOdometryOptions& options, const RigCalibration& rig,
                              ThreadPool* threads)
-    : options_(options), rig_(rig), threads_(threads), drift_(options.drift) {
+    : options_(options),
+      rig_(rig),
+      threads_(threads),
+      map_(options, rig.lidar ? rig.lidar->rings : 0),
+      drift_(options.drift) {
   options.Check();
   REGOLITH_CHECK(rig.lidar.has_value() || !options.lidar, "the rig has no lidar");
-  BeginMap();
   if (rig.lidar) T_body_lidar_ = rig.lidar->T_imu_lidar;
   if (options.wheels && rig.wheels) T_body_base_ = rig.wheels->T_imu_base;
   if (options.imu && rig.imu) inertial_.emplace(options, rig);
@@ -196,34 +198,11 @@ std::vector<ScanEstimate> LidarOdometry::EstimateReady(bool all) {
 ScanMatch LidarOdometry::Match(const LidarScan& scan,
                                const std::vector<Eigen::Vector3d>& points_body,
                                const Guess& guess) {
-  const ScanMatch match = features_ ? features_->Match(scan, points_body, guess.T_world_body,
-                                                       guess.covariance, threads_)
-                                    : MatchPoints(points_body, guess);
-  if (!match.used_scan && !is_map_new_ && !points_body.empty()) ++unmatched_scans_;
+  const bool is_map_new = map_.is_new();
+  const ScanMatch match =
+      map_.Match(scan, points_body, guess.T_world_body, guess.covariance, threads_);
+  if (!match.used_scan && !is_map_new && !points_body.empty()) ++unmatched_scans_;
   return match;
-}
-
-ScanMatch LidarOdometry::MatchPoints(const std::vector<Eigen::Vector3d>& points_body,
-                                     const Guess& guess) const {
-  const std::vector<uint32_t> kept = DownsampleIndices(points_body, options_.scan_voxel_size);
-  const size_t count = std::min(kept.size(), static_cast<size_t>(options_.max_points));
-  std::vector<Eigen::Vector3d> thinned(count);
-  for (size_t i = 0; i < count; ++i) thinned[i] = points_body[kept[i * kept.size() / count]];
-  return MatchScan(thinned, guess.T_world_body, guess.covariance, maps_, options_.matcher,
-                   threads_);
-}
-
-void LidarOdometry::BeginMap() {
-  is_map_new_ = true;
-  maps_.clear();
-  VoxelMapOptions level = options_.map;
-  const int levels = options_.features ? 0 : options_.map_levels;
-  for (int i = 0; i < levels; ++i, level.voxel_size *= options_.map_growth) {
-    maps_.emplace_back(level);
-  }
-  if (options_.features && rig_.lidar) {
-    features_.emplace(options_.feature_matcher, rig_.lidar->rings);
-  }
 }
 
 /// After a time without scans the map may be metres away from where the filter sees it. Matched
@@ -233,7 +212,7 @@ void LidarOdometry::BeginMapWhereLost() {
   InertialFilter& filter = inertial_->filter();
   const Eigen::Matrix3d position = filter.PoseCovariance().bottomRightCorner<3, 3>();
   if (is_placed_ || position.trace() < options_.max_lost_sigma * options_.max_lost_sigma) return;
-  BeginMap();
+  map_.Clear();
   drift_.BeginMap(filter.BeginWorld());
   ++maps_begun_;
 }
@@ -257,12 +236,7 @@ std::vector<MapPoint> LidarOdometry::ExtendMap(const LidarScan& scan,
     points_world[i] = T_world_body * points_body[i];
     map_points[i] = {points_world[i].cast<float>(), scan.points[i].intensity};
   }
-  if (!points_body.empty()) is_map_new_ = false;
-  if (features_) features_->Extend(T_world_body);
-  for (VoxelMap& map : maps_) {
-    map.Add(points_world, T_world_body.translation);
-    map.ForgetSomeFarFrom(T_world_body.translation);
-  }
+  map_.Extend(points_world, T_world_body);
   return map_points;
 }
 

@@ -7,12 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "regolith/cloud/voxel_map.h"
 #include "regolith/core/thread_pool.h"
 #include "regolith/geometry/trajectory.h"
-#include "regolith/lio/feature_scan_matcher.h"
 #include "regolith/lio/inertial_tracker.h"
 #include "regolith/lio/lidar_odometry_options.h"
+#include "regolith/lio/local_map.h"
 #include "regolith/lio/map_drift.h"
 #include "regolith/lio/scan_odometry.h"
 #include "regolith/sensor/rig_calibration.h"
@@ -63,8 +62,6 @@ class LidarOdometry : public ScanOdometry {
   Guess GuessAt(TimeNs time) const;
   ScanMatch Match(const LidarScan& scan, const std::vector<Eigen::Vector3d>& points_body,
                   const Guess& guess);
-  ScanMatch MatchPoints(const std::vector<Eigen::Vector3d>& points_body, const Guess& guess) const;
-  void BeginMap();
   void BeginMapWhereLost();
   void AddDrift(const SE3& T_world_body, ScanEstimate* estimate);
   std::vector<MapPoint> ExtendMap(const LidarScan& scan,
@@ -76,9 +73,7 @@ class LidarOdometry : public ScanOdometry {
   SE3 T_body_lidar_;
   std::optional<SE3> T_body_base_;  ///< of the wheels, where they are used
   ThreadPool* threads_;
-  std::vector<VoxelMap> maps_;                  ///< the same points, from fine to coarse voxels
-  std::optional<FeatureScanMatcher> features_;  ///< in the place of `maps_`
-  bool is_map_new_ = true;                      ///< there is nothing in it
+  LocalMap map_;
   MapDrift drift_;
   std::optional<SE3> last_pose_;  ///< that `drift_` has reached
   bool is_placed_ = false;        ///< by a match of the scan before

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Regolith authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regolith/lio/local_map.h"
+
+#include <algorithm>
+
+#include "regolith/cloud/downsample.h"
+
+namespace regolith {
+
+LocalMap::LocalMap(const LidarOdometryOptions& options, int rings)
+    : options_(options), rings_(rings) {
+  Clear();
+}
+
+void LocalMap::Clear() {
+  is_new_ = true;
+  voxels_.clear();
+  features_.reset();
+  if (options_.features) {
+    if (rings_ > 0) features_.emplace(options_.feature_matcher, rings_);
+    return;
+  }
+  VoxelMapOptions level = options_.map;
+  for (int i = 0; i < options_.map_levels; ++i, level.voxel_size *= options_.map_growth) {
+    voxels_.emplace_back(level);
+  }
+}
+
+ScanMatch LocalMap::Match(const LidarScan& scan, const std::vector<Eigen::Vector3d>& points_body,
+                          const SE3& prior, const Matrix6d& prior_covariance, ThreadPool* threads) {
+  if (features_) return features_->Match(scan, points_body, prior, prior_covariance, threads);
+  const std::vector<uint32_t> kept = DownsampleIndices(points_body, options_.scan_voxel_size);
+  const size_t count = std::min(kept.size(), static_cast<size_t>(options_.max_points));
+  std::vector<Eigen::Vector3d> thinned(count);
+  for (size_t i = 0; i < count; ++i) thinned[i] = points_body[kept[i * kept.size() / count]];
+  return MatchScan(thinned, prior, prior_covariance, voxels_, options_.matcher, threads);
+}
+
+void LocalMap::Extend(const std::vector<Eigen::Vector3d>& points_map, const SE3& T_map_body) {
+  if (!points_map.empty()) is_new_ = false;
+  if (features_) features_->Extend(T_map_body);
+  for (VoxelMap& map : voxels_) {
+    map.Add(points_map, T_map_body.translation);
+    map.ForgetSomeFarFrom(T_map_body.translation);
+  }
+}
+
+}  // namespace regolith
