@@ -60,6 +60,13 @@ void Fields(Archive& archive, RestDetectionOptions& rest) {
 }
 
 template <typename Archive>
+void Fields(Archive& archive, RangeJumpOptions& jumps) {
+  archive("step", jumps.step);
+  archive("slope", jumps.slope);
+  archive("max_angle", jumps.max_angle);
+}
+
+template <typename Archive>
 void Fields(Archive& archive, MapDriftOptions& drift) {
   archive("rotation_length", drift.rotation_length);
   archive("position_length", drift.position_length);
@@ -109,6 +116,7 @@ void Fields(Archive& archive, LidarOdometryOptions& lio) {
   archive("max_points", lio.max_points);
   archive("drift", lio.drift);
   archive("max_lost_sigma", lio.max_lost_sigma);
+  archive("range_jumps", lio.range_jumps);
   archive("matcher", lio.matcher);
   archive("features", lio.features);
   archive("feature_matcher", lio.feature_matcher);

@@ -36,6 +36,7 @@ Matrix6d MotionCovariance(double rotation_sigma, double position_sigma) {
 
 void LidarOdometryOptions::Check() const {
   map.Check();
+  range_jumps.Check();
   matcher.Check();
   feature_matcher.Check();
   rest.Check();

@@ -8,6 +8,7 @@
 #include "regolith/lio/feature_scan_matcher_options.h"
 #include "regolith/lio/inertial_filter_options.h"
 #include "regolith/lio/map_drift_options.h"
+#include "regolith/lio/range_jumps_options.h"
 #include "regolith/registration/scan_matcher_options.h"
 
 namespace regolith {
@@ -20,6 +21,7 @@ struct LidarOdometryOptions {
   VoxelMapOptions map;    ///< the finest; each coarser one has voxels `map_growth` times as large
   int map_levels = 2;
   double map_growth = 3.0;
+  RangeJumpOptions range_jumps;  ///< points there are left out, where all are matched
   ScanMatcherOptions matcher;
   FeatureScanMatcherOptions feature_matcher;
   double scan_voxel_size = 0.35;  ///< m, one point a voxel is matched

@@ -5,8 +5,20 @@
 #include <algorithm>
 
 #include "regolith/cloud/downsample.h"
+#include "regolith/lio/range_jumps.h"
 
 namespace regolith {
+namespace {
+
+std::vector<Eigen::Vector3d> Picked(const std::vector<Eigen::Vector3d>& points,
+                                    const std::vector<uint32_t>& indices) {
+  std::vector<Eigen::Vector3d> picked;
+  picked.reserve(indices.size());
+  for (const uint32_t index : indices) picked.push_back(points[index]);
+  return picked;
+}
+
+}  // namespace
 
 LocalMap::LocalMap(const LidarOdometryOptions& options, int rings)
     : options_(options), rings_(rings) {
@@ -30,18 +42,21 @@ void LocalMap::Clear() {
 ScanMatch LocalMap::Match(const LidarScan& scan, const std::vector<Eigen::Vector3d>& points_body,
                           const SE3& prior, const Matrix6d& prior_covariance, ThreadPool* threads) {
   if (features_) return features_->Match(scan, points_body, prior, prior_covariance, threads);
-  const std::vector<uint32_t> kept = DownsampleIndices(points_body, options_.scan_voxel_size);
+  solid_ = PointsOffRangeJumps(scan, options_.range_jumps);
+  const std::vector<Eigen::Vector3d> solid = Picked(points_body, solid_);
+  const std::vector<uint32_t> kept = DownsampleIndices(solid, options_.scan_voxel_size);
   const size_t count = std::min(kept.size(), static_cast<size_t>(options_.max_points));
   std::vector<Eigen::Vector3d> thinned(count);
-  for (size_t i = 0; i < count; ++i) thinned[i] = points_body[kept[i * kept.size() / count]];
+  for (size_t i = 0; i < count; ++i) thinned[i] = solid[kept[i * kept.size() / count]];
   return MatchScan(thinned, prior, prior_covariance, voxels_, options_.matcher, threads);
 }
 
 void LocalMap::Extend(const std::vector<Eigen::Vector3d>& points_map, const SE3& T_map_body) {
   if (!points_map.empty()) is_new_ = false;
   if (features_) features_->Extend(T_map_body);
+  const std::vector<Eigen::Vector3d> solid = Picked(points_map, solid_);
   for (VoxelMap& map : voxels_) {
-    map.Add(points_map, T_map_body.translation);
+    map.Add(solid, T_map_body.translation);
     map.ForgetSomeFarFrom(T_map_body.translation);
   }
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -34,6 +35,7 @@ class LocalMap {
   LidarOdometryOptions options_;
   int rings_;
   std::vector<VoxelMap> voxels_;                ///< the same points, from fine to coarse
+  std::vector<uint32_t> solid_;                 ///< of the scan matched last, off range jumps
   std::optional<FeatureScanMatcher> features_;  ///< in the place of `voxels_`
   bool is_new_ = true;
 };
