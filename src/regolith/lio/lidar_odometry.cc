@@ -16,6 +16,8 @@ namespace {
 
 // Scans that wait longer than this for the IMU are estimated without it.
 constexpr double kMostWaiting = 1.0;  // s
+// Of the points beside jumps of the range: rocky ground has a quarter.
+constexpr double kMostAtJumps = 0.5;
 // An IMU that has said too little to start and then nothing for so long is given up.
 constexpr double kMostSilent = 3.0;  // s
 
@@ -351,6 +353,12 @@ std::vector<std::string> LidarOdometry::Notices() const {
     notices.push_back(std::string("the IMU was silent when it should have started: ") +
                       (inertial_ ? "the first scans went" : "scans go") +
                       " without it, and the world is not level");
+  }
+  if (map_.ShareAtJumps() > kMostAtJumps) {
+    notices.push_back(Concatenate(
+        std::lround(100.0 * map_.ShareAtJumps()),
+        " % of the points lie beside jumps of the range along their ring and were not matched; "
+        "check that the rings are right and their points in the order of the turn"));
   }
   const auto add = [&](size_t count, const char* what) {
     if (count > 0) notices.push_back(Concatenate(count, what));

@@ -105,6 +105,12 @@ RigCalibration Rig(bool with_imu) {
   return rig;
 }
 
+RigCalibration RigWithWheels() {
+  RigCalibration rig = Rig(true);
+  rig.wheels.emplace();
+  return rig;
+}
+
 void Append(std::vector<ScanEstimate> more, std::vector<ScanEstimate>* estimates) {
   for (ScanEstimate& estimate : more) estimates->push_back(std::move(estimate));
 }
@@ -283,6 +289,21 @@ TEST(LidarOdometry, AfterALongTimeWithoutScansTheMapBeginsAnew) {
   EXPECT_LT(covariance.diagonal().head<3>().sum(), 0.05 * 0.05);
   ASSERT_EQ(odometry.Notices().size(), 1U);
   EXPECT_NE(odometry.Notices()[0].find("begins anew"), std::string::npos);
+}
+
+TEST(LidarOdometry, RingsThatAreWrongAreSaid) {
+  ThreadPool threads(1);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  for (int i = 0; i < 300; ++i) {
+    odometry.AddImu(ImuAt(i * 0.005));
+    if (i % 20 != 0) continue;
+    LidarScan scan = ScanAt(i / 20, false);
+    for (LidarPoint& point : scan.points) point.ring = 0;
+    odometry.AddScan(scan);
+  }
+  odometry.Finish();
+  ASSERT_FALSE(odometry.Notices().empty());
+  EXPECT_NE(odometry.Notices()[0].find("jumps of the range"), std::string::npos);
 }
 
 TEST(LidarOdometry, WithoutImuAndWheelsNoPoseIsInvented) {
@@ -464,8 +485,7 @@ TEST(LidarOdometry, OnAPlaneItSaysWhatItDoesNotKnow) {
   EXPECT_GE(degenerate, 90U);
   EXPECT_TRUE(contained);
 
-  RigCalibration rig = Rig(true);
-  rig.wheels.emplace();
+  const RigCalibration rig = RigWithWheels();
   LidarOdometryOptions options;
   options.wheels = true;
   LidarOdometry with_wheels(options, rig, &threads);
@@ -478,8 +498,7 @@ TEST(LidarOdometry, OnAPlaneItSaysWhatItDoesNotKnow) {
 
 TEST(LidarOdometry, TheLidarTeachesTheSlipOfTheWheels) {
   ThreadPool threads(2);
-  RigCalibration rig = Rig(true);
-  rig.wheels.emplace();
+  const RigCalibration rig = RigWithWheels();
   LidarOdometryOptions options;
   options.wheels = true;
   LidarOdometry odometry(options, rig, &threads);
@@ -496,8 +515,7 @@ TEST(LidarOdometry, TheLidarTeachesTheSlipOfTheWheels) {
 
 TEST(LidarOdometry, WheelsCountLessWhereTheLidarPlaces) {
   ThreadPool threads(2);
-  RigCalibration rig = Rig(true);
-  rig.wheels.emplace();
+  const RigCalibration rig = RigWithWheels();
   LidarOdometryOptions options;
   options.wheels = true;
   options.filter.wheels.placed_inflation = 1.0;

@@ -39,10 +39,17 @@ void LocalMap::Clear() {
   }
 }
 
+double LocalMap::ShareAtJumps() const {
+  if (points_ == 0) return 0.0;
+  return 1.0 - static_cast<double>(solid_points_) / static_cast<double>(points_);
+}
+
 ScanMatch LocalMap::Match(const LidarScan& scan, const std::vector<Eigen::Vector3d>& points_body,
                           const SE3& prior, const Matrix6d& prior_covariance, ThreadPool* threads) {
   if (features_) return features_->Match(scan, points_body, prior, prior_covariance, threads);
   solid_ = PointsOffRangeJumps(scan, options_.range_jumps);
+  points_ += scan.points.size();
+  solid_points_ += solid_.size();
   const std::vector<Eigen::Vector3d> solid = Picked(points_body, solid_);
   const std::vector<uint32_t> kept = DownsampleIndices(solid, options_.scan_voxel_size);
   const size_t count = std::min(kept.size(), static_cast<size_t>(options_.max_points));

@@ -22,6 +22,8 @@ class LocalMap {
   /// Begins anew.
   void Clear();
   bool is_new() const { return is_new_; }  ///< nothing is in it yet
+  /// Of all points that came to be matched, those that lay beside a jump of the range.
+  double ShareAtJumps() const;
 
   /// The pose of a scan, fused with a Gaussian prior [rotation (right), position] of it.
   /// `points_body`: the scan's points in their order, m, without motion distortion.
@@ -38,6 +40,8 @@ class LocalMap {
   std::vector<uint32_t> solid_;                 ///< of the scan matched last, off range jumps
   std::optional<FeatureScanMatcher> features_;  ///< in the place of `voxels_`
   bool is_new_ = true;
+  size_t points_ = 0;
+  size_t solid_points_ = 0;
 };
 
 }  // namespace regolith
