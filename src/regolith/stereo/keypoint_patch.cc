@@ -56,10 +56,23 @@ bool SampleSquare(const KeypointPatch& patch, const Eigen::Vector2f& place,
   return true;
 }
 
-/// Takes mean and contrast away; gives the contrast (standard deviation, grey levels), or nothing
+/// Takes the plane through the values away: what changes slowly across the square may go along with
+/// the camera, and would pull the place with it.
+void RemovePlane(Square* square) {
+  static const Square kColumns =
+      Eigen::Array<float, 1, kCompared>::LinSpaced(-kHalf, kHalf).replicate<kCompared, 1>();
+  static const Square kRows = kColumns.transpose();
+  static const float kSpread = kColumns.square().mean();
+  *square -= square->mean();
+  const float by_column = (*square * kColumns).mean() / kSpread;
+  const float by_row = (*square * kRows).mean() / kSpread;
+  *square -= by_column * kColumns + by_row * kRows;
+}
+
+/// Takes plane and contrast away; gives the contrast (standard deviation, grey levels), or nothing
 /// where that is too little.
 std::optional<float> Normalise(Square* square) {
-  *square -= square->mean();
+  RemovePlane(square);
   const float deviation = std::sqrt(square->square().mean());
   if (deviation < kLeastDeviation) return std::nullopt;
   *square /= deviation;
@@ -94,12 +107,14 @@ std::optional<Eigen::Vector2f> AlignPatch(const KeypointPatch& first,
   Square wanted = framed.block<kCompared, kCompared>(1, 1);
   const std::optional<float> contrast = Normalise(&wanted);
   if (!contrast) return std::nullopt;
-  const Square by_column =
+  Square by_column =
       (framed.block<kCompared, kCompared>(1, 2) - framed.block<kCompared, kCompared>(1, 0)) *
       (0.5F / *contrast);
-  const Square by_row =
+  Square by_row =
       (framed.block<kCompared, kCompared>(2, 1) - framed.block<kCompared, kCompared>(0, 1)) *
       (0.5F / *contrast);
+  RemovePlane(&by_column);
+  RemovePlane(&by_row);
   Eigen::Matrix2f information;
   information << by_column.square().mean(), (by_column * by_row).mean(),
       (by_column * by_row).mean(), by_row.square().mean();

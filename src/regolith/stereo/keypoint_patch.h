@@ -28,8 +28,10 @@ KeypointPatch CutPatch(const Image& image, const Eigen::Vector2f& place);
 /// The place in `second` that looks as `first_place` does in `first`, near `second_place`: pixels
 /// of the images. `first_by_second`: how a step in the second image moves in the first (Jacobian).
 /// Lucas–Kanade with the template's gradients (Baker & Matthews 2004, inverse compositional),
-/// after both are freed of mean and contrast. Nothing where the patch says too little of the place
-/// or it is not found: correlation below `min_correlation`, or farther than `max_step` pixels.
+/// after both are freed of contrast and of the plane through their values: halo around the rover's
+/// shadow, vignetting and scattered light go along with the camera, not with the ground. Nothing
+/// where the patch says too little of the place or it is not found: correlation below
+/// `min_correlation`, or farther than `max_step` pixels.
 std::optional<Eigen::Vector2f> AlignPatch(const KeypointPatch& first,
                                           const Eigen::Vector2f& first_place,
                                           const KeypointPatch& second,
