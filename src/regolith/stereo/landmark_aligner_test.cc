@@ -18,12 +18,13 @@ Eigen::Vector3d GroundAt(const SE3& T_world_camera, const Eigen::Vector2d& pixel
   return T_world_camera.translation - ray * (T_world_camera.translation.z() / ray.z());
 }
 
-/// Grey level of the ground: waves of 8 cm and more.
+/// Grey level of the ground: waves of 6 cm and more, for a patch that lies on a part of one has no
+/// more than a plane.
 double Grey(const Eigen::Vector3d& place) {
   double sum = 0.0;
   for (int i = 0; i < 12; ++i) {
     const double direction = 2.4 * i;
-    const double number = 70.0 - 4.0 * i;  // rad/m
+    const double number = 105.0 - 6.0 * i;  // rad/m
     sum += std::sin(number * (std::cos(direction) * place.x() + std::sin(direction) * place.y()) +
                     1.7 * i);
   }
