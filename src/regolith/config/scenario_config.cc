@@ -150,6 +150,7 @@ void Fields(Archive& archive, CameraOptions& camera) {
   archive("rate", camera.rate);
   archive("mast", camera.mast);
   archive("pitch_deg", camera.pitch_deg);
+  archive("stereo", camera.stereo);
   archive("baseline", camera.baseline);
   archive("distortion", camera.distortion);
   archive("vignetting", camera.vignetting);

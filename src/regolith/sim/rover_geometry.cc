@@ -23,6 +23,11 @@ SE3 BaseFromLidar(const LidarOptions& options) {
   return {Eigen::Quaterniond::Identity(), Eigen::Vector3d(kMastForward, 0.0, options.mast)};
 }
 
+std::vector<std::string> CameraNames(const CameraOptions& options) {
+  if (!options.stereo) return {"mono"};
+  return {"mono", "left", "right"};
+}
+
 SE3 BaseFromCamera(const CameraOptions& options, const std::string& camera) {
   REGOLITH_CHECK(camera == "mono" || camera == "left" || camera == "right", camera);
   const double sine = std::sin(options.pitch_deg * kDegree);
@@ -88,9 +93,9 @@ RigCalibration NominalRig(const ScenarioOptions& options) {
   rig.lidar->range_sigma = std::max(options.lidar.range_sigma, 1e-3);
   rig.lidar->lowest_elevation_deg = options.lidar.lowest_deg;
   rig.lidar->highest_elevation_deg = options.lidar.highest_deg;
-  for (const char* name : {"mono", "left", "right"}) {
+  for (const std::string& name : CameraNames(options.camera)) {
     CameraCalibration& camera = rig.cameras[name];
-    camera.topic = std::string("/camera/") + name + "/image_raw";
+    camera.topic = "/camera/" + name + "/image_raw";
     camera.intrinsics = MakeIntrinsics(options.camera);
     camera.T_imu_camera = T_imu_base * BaseFromCamera(options.camera, name);
     camera.time_offset_sigma = options.camera.time_offset_sigma;

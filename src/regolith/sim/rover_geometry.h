@@ -23,6 +23,8 @@ inline constexpr double kBellyClearance = 0.25;
 /// Frame `base` lies on the ground between the wheels, x forward, y left, z up.
 SE3 BaseFromImu();
 SE3 BaseFromLidar(const LidarOptions& options);
+/// The cameras that a recording has, the middle one first.
+std::vector<std::string> CameraNames(const CameraOptions& options);
 /// `camera`: "mono", "left" or "right".
 SE3 BaseFromCamera(const CameraOptions& options, const std::string& camera);
 

@@ -64,6 +64,7 @@ struct CameraOptions {
   double rate = 10.0;                                           ///< Hz
   double mast = 1.1;                                            ///< m above the ground
   double pitch_deg = 15.0;                                      ///< degrees down
+  bool stereo = true;                                           ///< left and right beside "mono"
   double baseline = 0.12;                                       ///< m, left to right
   std::vector<double> distortion = {-0.12, 0.03, 4e-4, -3e-4};  ///< k1 k2 p1 p2
   double vignetting = 0.25;                                     ///< light lost at a corner, share

@@ -39,7 +39,6 @@ constexpr double kPairYaw = 0.2;       // rad, standard deviations between the i
 constexpr double kPairTilt = 0.06;     // rad
 constexpr double kPairShift = 0.25;    // m
 constexpr double kPathEnd = 1.0;       // s of path beyond the last measurement
-const char* const kCameras[] = {"mono", "left", "right"};
 
 std::unique_ptr<Surface> MakeSurface(const ScenarioOptions& options, const HeightGrid* dem) {
   if (dem != nullptr) return CreateDemSurface(*dem, options.terrain, options.seed);
@@ -111,6 +110,7 @@ class RoverSimulator : public Simulator {
                              photometry_, options.mesh, pool)),
         renderer_(MakeIntrinsics(options.camera), *scene_, photometry_, pool),
         camera_(options.camera, renderer_, pool),
+        cameras_(CameraNames(options.camera)),
         lidar_(options.lidar, *scene_, motion_, StreamSeed(options.seed, "lidar"), pool),
         imu_(options.imu, options.gravity, options.seed),
         wheels_(options.wheels, options.seed) {
@@ -178,6 +178,7 @@ class RoverSimulator : public Simulator {
   std::unique_ptr<Scene> scene_;
   Renderer renderer_;
   CameraSimulator camera_;
+  std::vector<std::string> cameras_;
   std::map<std::string, ExposureControl> exposure_controls_;
   std::map<std::string, Exposure> exposures_;
   RenderedView first_view_;
@@ -250,10 +251,10 @@ Exposure RoverSimulator::ChooseExposure(const std::string& camera, const Rendere
   return exposures_[camera] = control.Next(view);
 }
 
-// The three cameras are triggered together and come one after the other, with equal stamps.
+// The cameras are triggered together and come one after the other, with equal stamps.
 SensorEvent RoverSimulator::NextFrame() {
   CameraFrame frame;
-  frame.camera = kCameras[next_camera_];
+  frame.camera = cameras_[next_camera_];
   frame.time = camera_schedule_.stamp();
   Settle(camera_schedule_.true_time());
   const MotionState motion = motion_.At(camera_schedule_.true_time());
@@ -266,14 +267,14 @@ SensorEvent RoverSimulator::NextFrame() {
   RenderedView& view = is_first ? first_view_ : view_;
   renderer_.Render(T_world_camera, {&rover, LampOnRover(options_, T_world_base)}, &view,
                    is_first ? nullptr : nearby_.get());
-  if (is_first) {
+  if (is_first && cameras_.size() > 1) {
     nearby_ = std::make_unique<NearbyView>(view, T_world_camera, MakeIntrinsics(options_.camera),
                                            0.5 * options_.camera.baseline, *scene_);
   }
   frame.image =
       camera_.Expose(view, CameraMotionOf(motion, T_imu_camera), ChooseExposure(frame.camera, view),
                      StreamSeed(options_.seed, frame.camera), camera_schedule_.next);
-  if (++next_camera_ == std::size(kCameras)) {
+  if (++next_camera_ == cameras_.size()) {
     next_camera_ = 0;
     ++camera_schedule_.next;
   }
