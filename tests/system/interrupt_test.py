@@ -63,10 +63,14 @@ class Interrupt(ProgramTest):
             self.assertFalse((out / "summary.json").exists())
 
     def test_an_output_that_cannot_be_written_is_refused_before_any_work(self):
-        start = time.monotonic()
+        def processor_seconds():
+            usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+            return usage.ru_utime + usage.ru_stime
+
+        start = processor_seconds()
         self.assert_refused(call("run", RECORDING, "--out", "/proc/regolith"), "--out /proc/regolith")
         self.assert_refused(call("simulate", "--scenario", "lunar_short", "--out", "/dev/null/x"), "--out /dev/null/x")
-        self.assertLess(time.monotonic() - start, 10.0)
+        self.assertLess(processor_seconds() - start, 10.0)
 
 
 if __name__ == "__main__":
