@@ -77,7 +77,7 @@ void InertialFilter::MoveInto(const SE3& T_world_imu, const Eigen::Vector3d& v_w
 }
 
 Matrix6d InertialFilter::BeginWorld() {
-  const Matrix6d pose_covariance = PoseCovariance();
+  Matrix6d pose_covariance = PoseCovariance();
   // The attitude's error becomes the new world's, which turns what is known in the world's axes.
   const Eigen::Matrix3d rotation = state_.T_world_imu.rotation.toRotationMatrix();
   Covariance transition = Covariance::Identity();

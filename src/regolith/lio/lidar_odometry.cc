@@ -202,8 +202,7 @@ ScanMatch LidarOdometry::Match(const LidarScan& scan,
                                const std::vector<Eigen::Vector3d>& points_body,
                                const Guess& guess) {
   const bool is_map_new = map_.is_new();
-  const ScanMatch match =
-      map_.Match(scan, points_body, guess.T_world_body, guess.covariance, threads_);
+  ScanMatch match = map_.Match(scan, points_body, guess.T_world_body, guess.covariance, threads_);
   if (!match.used_scan && !is_map_new && !points_body.empty()) ++unmatched_scans_;
   return match;
 }

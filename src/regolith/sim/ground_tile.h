@@ -31,7 +31,8 @@ class GroundTile {
   /// kSkirtPosts² positions (m, world), row by row; one float more allocated, as Embree asks.
   const std::vector<Eigen::Vector3f>& positions() const { return positions_; }
   const Eigen::Vector3f& Post(int column, int row) const {
-    return positions_[static_cast<size_t>((row + 1) * kSkirtPosts + column + 1)];
+    const int post = (row + 1) * kSkirtPosts + column + 1;
+    return positions_[static_cast<size_t>(post)];
   }
   /// The normal at a post, from its neighbours.
   Eigen::Vector3f Normal(int column, int row) const;

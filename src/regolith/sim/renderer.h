@@ -41,7 +41,8 @@ class Renderer {
 
   /// The unit vector of a pixel in the camera's frame.
   const Eigen::Vector3f& bearing(int column, int row) const {
-    return bearings_[static_cast<size_t>(row * width_ + column)];
+    const int pixel = row * width_ + column;
+    return bearings_[static_cast<size_t>(pixel)];
   }
 
  private:

@@ -27,7 +27,8 @@ float Sample(const KeypointPatch& patch, float column, float row) {
   const int top = static_cast<int>(row);
   const float u = column - static_cast<float>(left);
   const float v = row - static_cast<float>(top);
-  const uint8_t* grey = patch.grey.data() + top * KeypointPatch::kSide + left;
+  const uint8_t* grey =
+      patch.grey.data() + static_cast<ptrdiff_t>(top) * KeypointPatch::kSide + left;
   const float upper = static_cast<float>(grey[0]) * (1.0F - u) + static_cast<float>(grey[1]) * u;
   grey += KeypointPatch::kSide;
   const float lower = static_cast<float>(grey[0]) * (1.0F - u) + static_cast<float>(grey[1]) * u;

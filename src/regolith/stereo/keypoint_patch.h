@@ -18,8 +18,8 @@ struct KeypointPatch {
   static constexpr int kReach = 10;  ///< pixels to either side of the centre
   static constexpr int kSide = 2 * kReach + 1;
 
-  Eigen::Vector2i centre = Eigen::Vector2i::Zero();  ///< pixel of the image
-  std::array<uint8_t, kSide * kSide> grey{};         ///< rows one after the other
+  Eigen::Vector2i centre = Eigen::Vector2i::Zero();   ///< pixel of the image
+  std::array<uint8_t, size_t{kSide} * kSide> grey{};  ///< rows one after the other
 };
 
 /// Around the pixel nearest to `place`; what lies outside the image repeats its edge.
