@@ -86,6 +86,11 @@ if(GIT_FOUND)
     set(REGOLITH_COMMIT ${commit})
   endif()
 endif()
+# Reports name the commit they were made with: configured anew with each one.
+set(head_log ${CMAKE_SOURCE_DIR}/.git/logs/HEAD)
+if(EXISTS ${head_log})
+  set_property(DIRECTORY ${CMAKE_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${head_log})
+endif()
 
 if(REGOLITH_TESTS)
   find_package(GTest REQUIRED)
