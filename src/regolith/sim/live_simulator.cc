@@ -362,13 +362,8 @@ std::unique_ptr<LiveSimulator> LiveSimulator::Create(const ScenarioOptions& opti
 }
 
 RigCalibration LiveSimulator::Rig(const ScenarioOptions& options, const std::string& camera) {
-  ScenarioOptions with_all = options;
-  with_all.camera.stereo = true;
-  RigCalibration rig = NominalRig(with_all);
-  for (auto each = rig.cameras.begin(); each != rig.cameras.end();) {
-    each = each->first == camera ? std::next(each) : rig.cameras.erase(each);
-  }
-  return rig;
+  if (camera.empty()) return NominalRig(options, {});
+  return NominalRig(options, {camera});
 }
 
 }  // namespace regolith

@@ -77,7 +77,7 @@ CameraIntrinsics MakeIntrinsics(const CameraOptions& options) {
   return intrinsics;
 }
 
-RigCalibration NominalRig(const ScenarioOptions& options) {
+RigCalibration NominalRig(const ScenarioOptions& options, const std::vector<std::string>& cameras) {
   RigCalibration rig;
   rig.gravity = options.gravity;
   rig.imu.emplace();
@@ -93,7 +93,7 @@ RigCalibration NominalRig(const ScenarioOptions& options) {
   rig.lidar->range_sigma = std::max(options.lidar.range_sigma, 1e-3);
   rig.lidar->lowest_elevation_deg = options.lidar.lowest_deg;
   rig.lidar->highest_elevation_deg = options.lidar.highest_deg;
-  for (const std::string& name : CameraNames(options.camera)) {
+  for (const std::string& name : cameras) {
     CameraCalibration& camera = rig.cameras[name];
     camera.topic = "/camera/" + name + "/image_raw";
     camera.intrinsics = MakeIntrinsics(options.camera);

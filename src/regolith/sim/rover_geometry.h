@@ -39,7 +39,8 @@ std::vector<RoverBox> RoverBody();
 
 CameraIntrinsics MakeIntrinsics(const CameraOptions& options);
 
-/// What the rig file says: everything but the hidden errors (clock, slip, radius, biases).
-RigCalibration NominalRig(const ScenarioOptions& options);
+/// What the rig file says of a rover with these cameras: everything but the hidden errors (clock,
+/// slip, radius, biases).
+RigCalibration NominalRig(const ScenarioOptions& options, const std::vector<std::string>& cameras);
 
 }  // namespace regolith

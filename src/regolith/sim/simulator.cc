@@ -128,7 +128,7 @@ class RoverSimulator : public Simulator {
   TimeNs end_time() const override { return AddSeconds(kEpoch, options_.duration); }
   std::vector<std::string> Notices() const override { return {}; }
 
-  RigCalibration rig() const override { return NominalRig(options_); }
+  RigCalibration rig() const override { return NominalRig(options_, cameras_); }
 
   SE3 T_world_imu(TimeNs time) const override {
     return motion_.PoseAt(SecondsBetween(kEpoch, time));
