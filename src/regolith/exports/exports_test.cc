@@ -100,6 +100,16 @@ TEST(RoverUrdf, HasThePluginsOfThePaperAndTheTopicsOfTheRig) {
   }
 }
 
+TEST(RoverUrdf, HasTheCamerasOfTheRigAlone) {
+  ScenarioOptions options;
+  options.camera.stereo = false;
+  const std::string urdf = RoverUrdf(options);
+  EXPECT_NE(urdf.find("mono_head"), std::string::npos);
+  for (const char* const word : {"left_head", "right_head", "libgazebo_ros_multicamera.so"}) {
+    EXPECT_EQ(urdf.find(word), std::string::npos) << word;
+  }
+}
+
 TEST(GazeboWorld, HasTheScenariosGravityAndSun) {
   ScenarioOptions options;
   options.gravity = 3.72;

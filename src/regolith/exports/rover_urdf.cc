@@ -256,7 +256,7 @@ void AddCameraPlugin(const Text& text, const std::string& file, const std::strin
   xml->Close();
 }
 
-void AddCameras(const Text& text, const CameraOptions& camera, XmlWriter* xml) {
+void AddMonoCamera(const Text& text, const CameraOptions& camera, XmlWriter* xml) {
   OpenSensor("mono_head", "camera", "mono_camera", text("camera_rate"), xml);
   xml->Open("camera", {{"name", "mono"}});
   AddLens(text, camera, "L8", xml);
@@ -264,7 +264,9 @@ void AddCameras(const Text& text, const CameraOptions& camera, XmlWriter* xml) {
   AddCameraPlugin(text, "libgazebo_ros_camera.so", "camera/mono", "mono", {}, xml);
   xml->Close();
   xml->Close();
+}
 
+void AddStereoCamera(const Text& text, const CameraOptions& camera, XmlWriter* xml) {
   OpenSensor("left_head", "multicamera", "stereo_camera", text("camera_rate"), xml);
   xml->Open("camera", {{"name", "left"}});
   AddLens(text, camera, "L8", xml);
@@ -277,7 +279,9 @@ void AddCameras(const Text& text, const CameraOptions& camera, XmlWriter* xml) {
                   {{"hackBaseline", Number(camera.baseline)}}, xml);
   xml->Close();
   xml->Close();
+}
 
+void AddDepthCamera(const Text& text, const CameraOptions& camera, XmlWriter* xml) {
   OpenSensor("depth_head", "depth", "depth_camera", text("camera_rate"), xml);
   xml->Open("camera", {{"name", "depth"}});
   AddLens(text, camera, "R8G8B8", xml);
@@ -508,14 +512,16 @@ std::string WriteRobot(const ScenarioOptions& options, bool xacro) {
                          Number(side[0] == 'l' ? kHalfTrack : -kHalfTrack)});
     }
   }
-  for (const char* const name : {"mono", "left", "right"}) {
+  for (const std::string& name : CameraNames(options.camera)) {
     const Eigen::Vector3d place = BaseFromCamera(options.camera, name).translation;
     robot.Call(head, {name, Number(place.y()), Number(place.z())});
   }
   // Below the others, whose rig has no depth camera.
   robot.Call(head, {"depth", "0", Number(options.camera.mast - 0.1)});
   robot.Part([&](const Text& text, XmlWriter* xml) {
-    AddCameras(text, options.camera, xml);
+    AddMonoCamera(text, options.camera, xml);
+    if (options.camera.stereo) AddStereoCamera(text, options.camera, xml);
+    AddDepthCamera(text, options.camera, xml);
     AddLidar(text, options.lidar, xml);
     AddImu(text, xml);
   });

@@ -22,8 +22,9 @@ Inertia BoxInertia(double mass, const Eigen::Vector3d& size);
 Inertia WheelInertia(double mass, double radius, double width);
 
 /// The rover of the simulator as a robot for ROS and Gazebo: chassis, four wheels with
-/// transmissions, mast with mono, stereo and depth cameras and a 16-line lidar, IMU, differential
-/// drive and control; the sensors' places, rates, noise and topics are those of `options`.
+/// transmissions, mast with the rig's cameras, a depth camera and a 16-line lidar, IMU,
+/// differential drive and control; the sensors' places, rates, noise and topics are those of
+/// `options`.
 std::string RoverUrdf(const ScenarioOptions& options);
 
 /// The same with xacro's properties and macros; xacro expands it to RoverUrdf(options).
