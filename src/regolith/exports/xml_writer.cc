@@ -5,32 +5,9 @@
 #include <cstdio>
 
 #include "regolith/core/check.h"
+#include "regolith/core/escape_markup.h"
 
 namespace regolith {
-
-std::string EscapeXml(std::string_view text) {
-  std::string escaped;
-  escaped.reserve(text.size());
-  for (const char character : text) {
-    switch (character) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += character;
-    }
-  }
-  return escaped;
-}
 
 std::string Number(double value) {
   char text[32];
@@ -51,7 +28,8 @@ XmlWriter::XmlWriter(bool fragment, int depth) : first_depth_(depth) {
 
 void XmlWriter::Start(const std::string& name, const Attributes& attributes) {
   text_ += std::string(2 * static_cast<size_t>(depth()), ' ') + "<" + name;
-  for (const auto& [key, value] : attributes) text_ += " " + key + "=\"" + EscapeXml(value) + "\"";
+  for (const auto& [key, value] : attributes)
+    text_ += " " + key + "=\"" + EscapeMarkup(value) + "\"";
 }
 
 void XmlWriter::Open(const std::string& name, const Attributes& attributes) {
@@ -69,7 +47,7 @@ void XmlWriter::Close() {
 
 void XmlWriter::Leaf(const std::string& name, std::string_view text, const Attributes& attributes) {
   Start(name, attributes);
-  text_ += ">" + EscapeXml(text) + "</" + name + ">\n";
+  text_ += ">" + EscapeMarkup(text) + "</" + name + ">\n";
 }
 
 void XmlWriter::Empty(const std::string& name, const Attributes& attributes) {
@@ -80,7 +58,7 @@ void XmlWriter::Empty(const std::string& name, const Attributes& attributes) {
 void XmlWriter::Comment(const std::string& text) {
   REGOLITH_CHECK(text.find("--") == std::string::npos, text);
   text_ +=
-      std::string(2 * static_cast<size_t>(depth()), ' ') + "<!-- " + EscapeXml(text) + " -->\n";
+      std::string(2 * static_cast<size_t>(depth()), ' ') + "<!-- " + EscapeMarkup(text) + " -->\n";
 }
 
 std::string XmlWriter::Text() const {

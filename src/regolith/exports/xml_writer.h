@@ -9,9 +9,6 @@
 
 namespace regolith {
 
-/// Text as it stands in an XML attribute or between tags.
-std::string EscapeXml(std::string_view text);
-
 /// A number as the exports write it: the shortest of at most nine digits.
 std::string Number(double value);
 /// Numbers with a space between them.

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "regolith/core/check.h"
+#include "regolith/core/escape_markup.h"
 #include "regolith/report/html_text.h"
 #include "regolith/report/report_assets.h"
 
@@ -34,7 +35,7 @@ bool IsNumber(const std::string& text) {
 }
 
 std::string CellHtml(const DocumentCell& cell) {
-  const std::string text = EscapeHtml(cell.text);
+  const std::string text = EscapeMarkup(cell.text);
   if (cell.is_failed) return "<td class=\"failed\">" + text + "</td>";
   if (!IsNumber(cell.text)) return "<td>" + text + "</td>";
   return "<td class=\"number\">" + (cell.is_best ? "<b>" + text + "</b>" : text) + "</td>";
@@ -42,41 +43,42 @@ std::string CellHtml(const DocumentCell& cell) {
 
 std::string TableHtml(const DocumentTable& table) {
   std::string html = "<div class=\"table\"><table class=\"data\"><caption>" +
-                     EscapeHtml(table.caption) + "</caption><thead><tr>";
+                     EscapeMarkup(table.caption) + "</caption><thead><tr>";
   for (size_t i = 0; i < table.columns.size(); ++i) {
     const bool is_number = i > 0 && !table.rows.empty() && IsNumber(table.rows[0][i].text);
-    html += (is_number ? "<th class=\"number\">" : "<th>") + EscapeHtml(table.columns[i]) + "</th>";
+    html +=
+        (is_number ? "<th class=\"number\">" : "<th>") + EscapeMarkup(table.columns[i]) + "</th>";
   }
   html += "</tr></thead>\n";
   for (const std::vector<DocumentCell>& row : table.rows) {
     REGOLITH_CHECK(row.size() == table.columns.size(), table.caption, ": ", row.size(), " of ",
                    table.columns.size(), " cells");
-    html += "<tr><th scope=\"row\">" + EscapeHtml(row.front().text) + "</th>";
+    html += "<tr><th scope=\"row\">" + EscapeMarkup(row.front().text) + "</th>";
     for (size_t i = 1; i < row.size(); ++i) html += CellHtml(row[i]);
     html += "</tr>\n";
   }
   html += "</table></div>\n";
   for (const std::string& note : table.notes) {
-    html += "<p class=\"note\">" + EscapeHtml(note) + "</p>\n";
+    html += "<p class=\"note\">" + EscapeMarkup(note) + "</p>\n";
   }
   return html;
 }
 
 std::string FigureHtml(const DocumentPage& page, const DocumentFigure& figure) {
   const std::vector<uint8_t> bytes = ReadBytes(page.folder + "/" + figure.file);
-  const std::string caption = EscapeHtml(figure.caption);
+  const std::string caption = EscapeMarkup(figure.caption);
   if (bytes.empty()) {
-    return "<figure><p class=\"note\">" + EscapeHtml(figure.file) + " is missing</p><figcaption>" +
-           caption + "</figcaption></figure>\n";
+    return "<figure><p class=\"note\">" + EscapeMarkup(figure.file) +
+           " is missing</p><figcaption>" + caption + "</figcaption></figure>\n";
   }
   return "<figure><img alt=\"" + caption + "\" src=\"data:" + TypeOf(figure.file) + ";base64," +
          Base64(bytes) + "\"><figcaption>" + caption + "</figcaption></figure>\n";
 }
 
 std::string SectionHtml(const DocumentPage& page, const DocumentSection& section) {
-  std::string html = "<section class=\"wide\"><h2>" + EscapeHtml(section.title) + "</h2>\n";
+  std::string html = "<section class=\"wide\"><h2>" + EscapeMarkup(section.title) + "</h2>\n";
   for (const std::string& paragraph : section.paragraphs) {
-    html += "<p>" + EscapeHtml(paragraph) + "</p>\n";
+    html += "<p>" + EscapeMarkup(paragraph) + "</p>\n";
   }
   for (const DocumentTable& table : section.tables) html += TableHtml(table);
   if (!section.figures.empty()) {
@@ -123,14 +125,14 @@ std::string RenderHtml(const DocumentPage& page) {
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n<title>" +
-      EscapeHtml(page.title) + "</title>\n<style>" + std::string(kReportStyle) +
-      "</style></head>\n<body>\n<header><div class=\"title\"><h1>" + EscapeHtml(page.title) +
+      EscapeMarkup(page.title) + "</title>\n<style>" + std::string(kReportStyle) +
+      "</style></head>\n<body>\n<header><div class=\"title\"><h1>" + EscapeMarkup(page.title) +
       "</h1><button id=\"theme\" type=\"button\" title=\"Light or "
       "dark\">◐</button></div></header>\n"
       "<main>\n<section class=\"wide\"><table>";
   for (const ReportItem& item : page.header) {
-    html += "<tr><th scope=\"row\">" + EscapeHtml(item.name) + "</th><td>" +
-            EscapeHtml(item.value) + "</td></tr>\n";
+    html += "<tr><th scope=\"row\">" + EscapeMarkup(item.name) + "</th><td>" +
+            EscapeMarkup(item.value) + "</td></tr>\n";
   }
   html += "</table></section>\n";
   for (const DocumentSection& section : page.sections) html += SectionHtml(page, section);

@@ -10,29 +10,6 @@
 
 namespace regolith {
 
-std::string EscapeHtml(std::string_view text) {
-  std::string escaped;
-  for (const char character : text) {
-    switch (character) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += character;
-    }
-  }
-  return escaped;
-}
-
 std::string QuoteScript(std::string_view text) {
   std::string quoted = "\"";
   for (const char character : text) {

@@ -10,9 +10,6 @@
 
 namespace regolith {
 
-/// Text for an HTML element or a quoted attribute.
-std::string EscapeHtml(std::string_view text);
-
 /// A quoted JavaScript string that may stand inside a script element.
 std::string QuoteScript(std::string_view text);
 

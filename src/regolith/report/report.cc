@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "regolith/core/check.h"
+#include "regolith/core/escape_markup.h"
 #include "regolith/report/html_text.h"
 #include "regolith/report/report_assets.h"
 #include "regolith/report/report_map.h"
@@ -49,8 +50,8 @@ std::string MapNote(const ReportData& data) {
 std::string Table(const std::vector<ReportItem>& items) {
   std::string table = "<table>";
   for (const ReportItem& item : items) {
-    table += "<tr><th scope=\"row\">" + EscapeHtml(item.name) + "</th><td>" +
-             EscapeHtml(item.value) + "</td></tr>\n";
+    table += "<tr><th scope=\"row\">" + EscapeMarkup(item.name) + "</th><td>" +
+             EscapeMarkup(item.value) + "</td></tr>\n";
   }
   return table + "</table>";
 }
@@ -71,7 +72,7 @@ std::string StageTable(const std::vector<ReportStage>& stages) {
       "<table><thead><tr><th>stage</th><th class=\"number\">median, ms</th>"
       "<th class=\"number\">99 %, ms</th></tr></thead>\n";
   for (const ReportStage& stage : stages) {
-    table += "<tr><th scope=\"row\">" + EscapeHtml(stage.name) + "</th><td class=\"number\">" +
+    table += "<tr><th scope=\"row\">" + EscapeMarkup(stage.name) + "</th><td class=\"number\">" +
              Fixed(stage.median_ms, 2) + "</td><td class=\"number\">" + Fixed(stage.p99_ms, 2) +
              "</td></tr>\n";
   }
@@ -80,7 +81,7 @@ std::string StageTable(const std::vector<ReportStage>& stages) {
 
 std::string Section(const std::string& title, const std::string& body,
                     const std::string& classes = "") {
-  return "<section class=\"" + classes + "\"><h2>" + EscapeHtml(title) + "</h2>\n" + body +
+  return "<section class=\"" + classes + "\"><h2>" + EscapeMarkup(title) + "</h2>\n" + body +
          "</section>\n";
 }
 
@@ -89,13 +90,13 @@ std::string Figure(const std::string& id) {
 }
 
 std::string Header(const ReportData& data) {
-  std::string html = "<header><div class=\"title\"><h1>" + EscapeHtml(data.title) +
+  std::string html = "<header><div class=\"title\"><h1>" + EscapeMarkup(data.title) +
                      "</h1><button id=\"theme\" type=\"button\" title=\"Light or dark\">◐</button>"
                      "</div>\n<p class=\"subtitle\">Pipeline <b>" +
-                     EscapeHtml(data.pipeline) + "</b></p>\n<div class=\"tiles\">";
+                     EscapeMarkup(data.pipeline) + "</b></p>\n<div class=\"tiles\">";
   for (const ReportItem& item : data.highlights) {
-    html += "<div class=\"tile\"><span>" + EscapeHtml(item.name) + "</span><b>" +
-            EscapeHtml(item.value) + "</b></div>\n";
+    html += "<div class=\"tile\"><span>" + EscapeMarkup(item.name) + "</span><b>" +
+            EscapeMarkup(item.value) + "</b></div>\n";
   }
   return html + "</div></header>\n";
 }
@@ -171,7 +172,7 @@ std::string FramesSection(const std::vector<ReportFrame>& frames) {
             "\"><div class=\"picture\"><img alt=\"camera image\" " +
             Concatenate("width=\"", frame.width, "\" height=\"", frame.height, "\" ") +
             "src=\"data:image/jpeg;base64," + Base64(bytes) + "\">" + FeatureOverlay(frame) +
-            "</div><figcaption>" + EscapeHtml(frame.caption) + "</figcaption></figure>\n";
+            "</div><figcaption>" + EscapeMarkup(frame.caption) + "</figcaption></figure>\n";
   }
   return Section("Sample frames with features", html + "</div>\n", "wide");
 }
@@ -190,7 +191,7 @@ std::string TableSections(const ReportData& data) {
   if (!data.configuration.empty()) {
     html += Section("Configuration",
                     "<details><summary>Show all settings, resolved</summary><pre>" +
-                        EscapeHtml(data.configuration) + "</pre></details>",
+                        EscapeMarkup(data.configuration) + "</pre></details>",
                     "wide");
   }
   return html;
@@ -204,11 +205,11 @@ std::string RenderReport(const ReportData& data, const std::string& plotly_path)
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n<title>" +
-      EscapeHtml(data.title) + "</title>\n<style>" + std::string(kReportStyle) +
+      EscapeMarkup(data.title) + "</title>\n<style>" + std::string(kReportStyle) +
       "</style></head>\n<body>\n" + Header(data) + "<main>\n";
   if (plotly.empty()) {
     html += "<p class=\"notice\">This page has no figures: plotly.min.js was not found" +
-            (plotly_path.empty() ? std::string() : " at " + EscapeHtml(plotly_path)) +
+            (plotly_path.empty() ? std::string() : " at " + EscapeMarkup(plotly_path)) +
             ". scripts/setup.sh installs it; run again to draw them.</p>\n";
   } else {
     html += FigureSections(data);
