@@ -61,14 +61,6 @@ def trained(arguments):
     return state
 
 
-def network_of(arguments):
-    from regolith_train.networks import NETWORKS
-
-    network = NETWORKS[arguments.network]()
-    network.load_state_dict(trained(arguments)["average"])
-    return network.eval()
-
-
 def label(arguments):
     import torch
 
@@ -92,6 +84,7 @@ def train(arguments):
     import yaml
 
     from regolith_train.labels import label_path
+    from regolith_train.networks import build
     from regolith_train.training import TrainingOptions, train as run_training
 
     config = pathlib.Path(arguments.config or CONFIGS / f"{arguments.network}.yaml")
@@ -99,7 +92,11 @@ def train(arguments):
     for field in dataclasses.fields(TrainingOptions):
         value = getattr(arguments, field.name, None)
         if value is not None:
-            options = dataclasses.replace(options, **{field.name: value})
+            options = dataclasses.replace(options, **{field.name: dict(value) if field.name == "shape" else value})
+    try:
+        build(options.network, options.shape)
+    except ValueError as error:
+        fail(error)
     labels = arguments.labels or default_labels()
     images = [path for path in images_of(arguments.images) if label_path(labels, path).exists()]
     if not images:
@@ -122,10 +119,11 @@ def export(arguments):
 
 
 def vocabulary(arguments):
+    from regolith_train.networks import restored
     from regolith_train.vocabulary import write_vocabulary
 
     path = pathlib.Path(arguments.out) / f"{arguments.network}_vocabulary.npy"
-    write_vocabulary(network_of(arguments), images_of(arguments.images), path)
+    write_vocabulary(restored(arguments.network, trained(arguments)), images_of(arguments.images), path)
     print(path)
 
 
@@ -133,7 +131,7 @@ def evaluate(arguments):
     import torch
 
     from regolith_train.methods import method
-    from regolith_train.report import report
+    from regolith_train.report import report, simulated_groups
     from regolith_train.training import cache_folder
 
     torch.set_num_threads(arguments.threads)
@@ -146,7 +144,8 @@ def evaluate(arguments):
         except (ValueError, FileNotFoundError) as error:
             return fail(error)
 
-    print(report(arguments.methods, load, homographies, pair_folders(arguments.pairs), arguments.out))
+    simulated = simulated_groups(pair_folders(arguments.pairs), arguments.pairs_a_group)
+    print(report(arguments.methods, load, homographies, simulated, arguments.out))
 
 
 def curves(arguments):
@@ -155,6 +154,12 @@ def curves(arguments):
     path = run_folder(arguments) / "curve.svg"
     plot_curves(run_folder(arguments), path)
     print(path)
+
+
+def size(text):
+    """NAME=NUMBER as a pair."""
+    name, _, number = text.partition("=")
+    return name, int(number)
 
 
 def parser():
@@ -179,6 +184,8 @@ def parser():
     added.add_argument("--labels", help="folder they go to; default REGOLITH_CACHE/training/labels")
     added.add_argument("--views", type=int, default=1, help="homographic views that scores are averaged over")
     added = command("train", train, "train a network; goes on where the run of that name stopped")
+    added.add_argument("--shape", nargs="+", type=size, metavar="NAME=NUMBER",
+                       help="arguments of the network's class, such as depth=2 dimension=64")  # fmt: skip
     added.add_argument("--start", help="ONNX file of the same network whose weights a new run begins with")
     for name in ("images", "pairs", "labels", "config"):
         added.add_argument(f"--{name}", required=name == "images")
@@ -195,7 +202,8 @@ def parser():
                        help="ghost (as in models/), ghost@RUN (a run's checkpoint), xfeat, aliked-n16, disk, sift, orb")  # fmt: skip
     added.add_argument("--homographies", default=DATA / "homography")
     added.add_argument("--pairs", help="folder below which `simulate --pairs` wrote PLANET/SEED/pairs")
-    added.add_argument("--out", default="features", help="folder of tables and plot")
+    added.add_argument("--pairs-a-group", type=int, default=100, metavar="N", help="of simulated pairs of one planet, sun and baseline")
+    added.add_argument("--out", default="features", help="folder of tables and plots")
     command("curves", curves, "plot the losses of a run")
     return top
 

@@ -10,7 +10,7 @@ import numpy
 import torch
 import yaml
 
-from regolith_train.networks import CELL, NETWORKS, inputs
+from regolith_train.networks import CELL, build, inputs
 
 OPSET = 17
 PARITY_HEIGHT, PARITY_WIDTH = 64, 96
@@ -47,7 +47,7 @@ def read_weights(path):
 
 def export(name, state, folder, training):
     """models/NAME.onnx, NAME.yaml and parity/NAME_*.npy. `training` goes into the manifest as it is."""
-    network = NETWORKS[name]()
+    network = build(name, training["options"].get("shape"))
     network.load_state_dict(state)
     network.eval()
     folder = pathlib.Path(folder)

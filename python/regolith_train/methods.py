@@ -13,27 +13,23 @@ from torch.nn import functional
 
 from regolith_train.evaluation import COUNT
 from regolith_train.inference import detect_and_describe
-from regolith_train.networks import NETWORKS
+from regolith_train.networks import NETWORKS, build, restored
 
 
 def ours(network):
-    network.eval()
     return lambda image: detect_and_describe(network, image, COUNT)
 
 
-def from_model(name, folder):
-    """The network of models/NAME.onnx."""
+def network_of(name, models, runs):
+    """`NETWORK` with the weights of models/NETWORK.onnx, or `NETWORK@RUN` with the averaged ones of that run's checkpoint."""
+    kind, _, run = name.partition("@")
+    if run:
+        return restored(kind, torch.load(pathlib.Path(runs) / run / "checkpoint.pt", map_location="cpu", weights_only=False))
     from regolith_train.export import read_weights
 
-    network = NETWORKS[name]()
-    network.load_state_dict(read_weights(pathlib.Path(folder) / f"{name}.onnx"), strict=False)
-    return ours(network)
-
-
-def from_run(name, checkpoint):
-    network = NETWORKS[name]()
-    network.load_state_dict(torch.load(checkpoint, map_location="cpu", weights_only=False)["average"])
-    return ours(network)
+    network = build(kind)
+    network.load_state_dict(read_weights(pathlib.Path(models) / f"{kind}.onnx"), strict=False)
+    return network.eval()
 
 
 def xfeat():
@@ -99,10 +95,9 @@ OUTSIDE = {"xfeat": xfeat, "aliked-n16": aliked, "disk": disk, "sift": sift, "or
 
 
 def method(name, models, runs):
-    """`name`: ghost (models/ghost.onnx), ghost@RUN (the checkpoint of a run of ghost's), or one of OUTSIDE."""
-    network, _, run = name.partition("@")
+    """One of OUTSIDE, or a network of ours (see network_of)."""
     if name in OUTSIDE:
         return OUTSIDE[name]()
-    if network not in NETWORKS:
+    if name.partition("@")[0] not in NETWORKS:
         raise ValueError(f"{name}: expected one of {', '.join([*NETWORKS, *OUTSIDE])}, or NETWORK@RUN")
-    return from_run(network, pathlib.Path(runs) / run / "checkpoint.pt") if run else from_model(network, models)
+    return ours(network_of(name, models, runs))

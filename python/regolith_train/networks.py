@@ -166,11 +166,11 @@ class Ghost(nn.Module):
     cells lie (docs/features.md has the figures).
     """
 
-    dimension = 128
     per_image = True
 
-    def __init__(self, half=16, quarter=24, eighth=64, depth=4, width=64, lifted=8):
+    def __init__(self, half=16, quarter=24, eighth=64, depth=4, width=64, lifted=8, dimension=128):
         super().__init__()
+        self.dimension = dimension
         self.stem = convolution(1, half, size=5, stride=2)
         self.middle = nn.Sequential(Blur(half), convolution(half, quarter, stride=2),
                                     GhostBottleneck(quarter, 2 * quarter, quarter))  # fmt: skip
@@ -210,3 +210,18 @@ def twice(features):
 
 
 NETWORKS = {"ghost": Ghost, "ghost_paper": GhostPaper, "superpoint": SuperPoint}
+
+
+def build(name, shape=None):
+    """The network of that name; `shape` are arguments of its class, where it is wider or deeper than the one that is shipped."""
+    try:
+        return NETWORKS[name](**(shape or {}))
+    except TypeError as error:
+        raise ValueError(f"network {name} has no such shape: {shape} ({error})") from error
+
+
+def restored(name, checkpoint):
+    """The network of a training run's checkpoint with the averaged weights, for inference."""
+    network = build(name, checkpoint["options"].get("shape"))
+    network.load_state_dict(checkpoint["average"])
+    return network.eval()

@@ -3,6 +3,7 @@
 """Tables and plots that put feature methods side by side, all by the same images and rules."""
 
 import csv
+import itertools
 import json
 import pathlib
 
@@ -10,9 +11,8 @@ import numpy
 
 from regolith_train import evaluation
 
-# Of simulated pairs: name, whether the sun is the same, baseline from, to (m).
-GROUPS = [("0.1–0.5 m", True, 0.1, 0.5), ("0.5–1 m", True, 0.5, 1.0), ("1–2 m", True, 1.0, 2.0), ("other sun, 0.1–1 m", False, 0.1, 1.0)]
-PAIRS_A_GROUP = 6
+# Baselines of simulated pairs, m: from, to.
+BASELINES = [(0.1, 0.5), (0.5, 1.0), (1.0, 2.0)]
 ROTATIONS = range(0, 181, 20)  # degrees
 SCALES = [0.5, 0.7, 0.85, 1.2, 1.4, 2.0]
 
@@ -35,19 +35,25 @@ def remember(extract, image):
     return lambda other: known if other is image else extract(other)
 
 
-def simulated_groups(folders):
-    """Pairs of `regolith simulate` by planet (PLANET/SEED/pairs), sun and baseline: name → paths of the first images."""
+def simulated_groups(folders, most):
+    """Pairs of `regolith simulate` by planet (PLANET/SEED/pairs), sun and baseline, `most` of a group at most and of each folder as
+    many: name → paths of the first images. The name is `planet, same sun|other sun, FROM–TO m`."""
     groups = {}
     for folder in folders:
-        planet = folder.parents[1].name
         with open(folder / "index.csv", encoding="utf-8") as file:
             for row in csv.DictReader(file):
-                for name, same_sun, low, high in GROUPS:
-                    if (row["same_sun"] == "1") == same_sun and low <= float(row["baseline_m"]) <= high:
-                        pairs = groups.setdefault(f"{planet}, {name}", [])
-                        if len(pairs) < PAIRS_A_GROUP:
-                            pairs.append(folder / f"{row['id']}_1.png")
-    return groups
+                sun = "same sun" if row["same_sun"] == "1" else "other sun"
+                for low, high in BASELINES:
+                    if low <= float(row["baseline_m"]) < high:
+                        name = f"{folder.parents[1].name}, {sun}, {low:g}–{high:g} m"
+                        groups.setdefault(name, {}).setdefault(folder, []).append(folder / f"{row['id']}_1.png")
+    return {name: evenly(list(groups[name].values()), most) for name in sorted(groups)}
+
+
+def evenly(lists, most):
+    """The first of each list, the second of each, ..., `most` in all."""
+    rounds = itertools.zip_longest(*lists)
+    return [value for values in rounds for value in values if value is not None][:most]
 
 
 def table(results):
@@ -61,11 +67,13 @@ def table(results):
 
 
 def simulated_table(results):
-    names = list(next(iter(results.values()))["simulated"])
-    lines = ["| kept / correct / precision | " + " | ".join(names) + " |", "|---|" + "---|" * len(names)]
-    for method, result in results.items():
-        cells = [f"{row['kept']:.0f} / {row['correct']:.0f} / {100 * row['precision']:.0f} %" for row in result["simulated"].values()]
-        lines.append(f"| `{method}` | " + " | ".join(cells) + " |")
+    """Markdown: a row for each group of simulated pairs, a column for each method."""
+    lines = ["| pairs, kept / correct / precision | number | " + " | ".join(f"`{name}`" for name in results) + " |",
+             "|---|---|" + "---|" * len(results)]  # fmt: skip
+    for group, example in next(iter(results.values()))["simulated"].items():
+        rows = [result["simulated"][group] for result in results.values()]
+        cells = [f"{row['kept']:.0f} / {row['correct']:.0f} / {100 * row['precision']:.0f} %" for row in rows]
+        lines.append(f"| {group} | {example['pairs']} | " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
 
 
@@ -89,6 +97,30 @@ def plot(results, path):
     axes[2].set_ylabel("repeatability at 1 px")
     axes[2].tick_params(axis="x", rotation=60)
     axes[0].legend(fontsize=8)
+    save(figure, path)
+
+
+def plot_simulated(results, path):
+    """Correct matches of simulated pairs over their baseline, an axis a planet; dashed under another sun."""
+    import matplotlib
+
+    matplotlib.use("svg")
+    from matplotlib import pyplot
+
+    groups = [name.split(", ") for name in next(iter(results.values()))["simulated"]]
+    planets = sorted({planet for planet, _, _ in groups})
+    figure, axes = pyplot.subplots(1, len(planets), figsize=(6 * len(planets), 4), squeeze=False)
+    for axis, planet in zip(axes[0], planets):
+        for index, (method, result) in enumerate(results.items()):
+            for sun, style in (("same sun", "-o"), ("other sun", "--o")):
+                ranges = [baseline for one, other, baseline in groups if (one, other) == (planet, sun)]
+                correct = [result["simulated"][f"{planet}, {sun}, {baseline}"]["correct"] for baseline in ranges]
+                axis.plot(ranges, correct, style, color=f"C{index}", label=method if sun == "same sun" else None, markersize=4)
+        axis.set_title(f"{planet} (dashed: another sun)")
+        axis.set_xlabel("between the cameras")
+        axis.set_ylabel("correct matches of 500 keypoints, 3 px")
+        axis.grid(alpha=0.3)
+    axes[0][0].legend(fontsize=8)
     save(figure, path)
 
 
@@ -127,9 +159,9 @@ def save(figure, path):
     figure.savefig(path, metadata={"Date": None})
 
 
-def report(names, load, homographies, pair_folders, out, progress=print):
-    """Scores the methods of `names` (`load` makes extracts of them) and writes tables, plot and figures into the folder `out`."""
-    simulated = simulated_groups(pair_folders)
+def report(names, load, homographies, simulated, out, progress=print):
+    """Scores the methods of `names` (`load` makes extracts of them) and writes tables, plots and figures into the folder `out`.
+    `simulated`: see simulated_groups."""
     results = {}
     for name in names:
         results[name] = score_method(load(name), homographies, simulated)
@@ -140,4 +172,6 @@ def report(names, load, homographies, pair_folders, out, progress=print):
     text = table(results) + ("\n" + simulated_table(results) if simulated else "")
     (out / "features_table.md").write_text(text, encoding="utf-8")
     plot(results, out / "features_curves.svg")
+    if simulated:
+        plot_simulated(results, out / "features_pairs.svg")
     return text

@@ -19,12 +19,13 @@ from torch.utils.data import DataLoader
 
 from regolith_train.data import Mixture, SimulatedPairs, SingleImages, validation
 from regolith_train.losses import LOSSES
-from regolith_train.networks import NETWORKS, inputs
+from regolith_train.networks import build, inputs
 
 
 @dataclasses.dataclass
 class TrainingOptions:
     network: str = "ghost"  # a key of NETWORKS
+    shape: dict = dataclasses.field(default_factory=dict)  # arguments of its class
     loss: str = "ghost"  # a key of LOSSES
     steps: int = 10000
     batch: int = 8  # samples (pairs of views) a step
@@ -69,7 +70,7 @@ class Run:
         self.folder.mkdir(parents=True, exist_ok=True)
         torch.manual_seed(options.seed)
         self.device = torch.device("cuda", local_rank()) if torch.cuda.is_available() else torch.device("cpu")
-        self.network = NETWORKS[options.network]().to(self.device, memory_format=torch.channels_last)
+        self.network = build(options.network, options.shape).to(self.device, memory_format=torch.channels_last)
         self.parallel = DistributedDataParallel(self.network) if distributed.is_initialized() else self.network
         self.optimiser = torch.optim.AdamW(self.network.parameters(), lr=options.rate, weight_decay=options.weight_decay)
         # The mean of the weights over the last few hundred steps is better than any of them, and good at any time of the schedule.

@@ -28,6 +28,7 @@ from regolith_train.data import Mixture, SingleImages, flow_at  # noqa: E402
 from regolith_train.homography import HomographyRange, random_homography, transform, warp_image  # noqa: E402
 from regolith_train.inference import detect_and_describe, mutual_matches, score_map, suppress  # noqa: E402
 from regolith_train.labels import label_path  # noqa: E402
+from regolith_train.report import simulated_groups  # noqa: E402
 from regolith_train.training import TrainingOptions, mixture, train  # noqa: E402
 from regolith_train.vocabulary import spherical_kmeans  # noqa: E402
 
@@ -64,6 +65,13 @@ class Networks(unittest.TestCase):
             self.assertEqual(tuple(descriptors.shape), (1, made.dimension, 8, 12), name)
             torch.testing.assert_close(descriptors.norm(dim=1), torch.ones(1, 8, 12))
 
+    def test_a_shape_is_an_argument_of_the_class(self):
+        small = networks.build("ghost", {"depth": 1, "dimension": 64})
+        self.assertEqual(small.dimension, 64)
+        self.assertLess(sum(p.numel() for p in small.parameters()), sum(p.numel() for p in networks.build("ghost").parameters()))
+        with self.assertRaisesRegex(ValueError, "ghost has no such shape"):
+            networks.build("ghost", {"depht": 1})
+
     def test_the_papers_encoder_is_1_2_wide_and_ends_with_96_channels(self):
         network = networks.GhostPaper()
         widths = [block.main[-1].outputs for block in network.encoder[1:]]
@@ -88,6 +96,20 @@ class Geometry(unittest.TestCase):
         rows, columns = numpy.mgrid[0:10, 0:20].astype(numpy.float32)
         flow = numpy.stack([columns + 2, rows - 1])
         numpy.testing.assert_allclose(flow_at(flow, numpy.array([[3.25, 4.75]])), [[5.25, 3.75]], atol=1e-5)
+
+
+class Report(unittest.TestCase):
+    def test_pairs_are_grouped_by_planet_sun_and_baseline_evenly_from_all_folders(self):
+        with tempfile.TemporaryDirectory() as root:
+            folders = [pathlib.Path(root) / "Moon" / seed / "pairs" for seed in ("1", "2")]
+            for folder in folders:
+                folder.mkdir(parents=True)
+                rows = ["id,baseline_m,rotation_deg,same_sun", *(f"{index:06},0.3,4,1" for index in range(5)), "000005,0.7,4,0", "000006,0.05,4,1"]
+                (folder / "index.csv").write_text("\n".join(rows) + "\n")
+            groups = simulated_groups(folders, most=3)
+            self.assertEqual(list(groups), ["Moon, other sun, 0.5–1 m", "Moon, same sun, 0.1–0.5 m"])
+            near = groups["Moon, same sun, 0.1–0.5 m"]
+            self.assertEqual(near, [folders[0] / "000000_1.png", folders[1] / "000000_1.png", folders[0] / "000001_1.png"])
 
 
 class Detector(unittest.TestCase):
