@@ -29,6 +29,8 @@ constexpr double kBlindRate = 0.5;          // rad/s
 constexpr double kBlindAcceleration = 1.0;  // m/s²
 // Poses farther apart say nothing of the rate.
 constexpr double kRateMemory = 0.5;  // s
+// Chi-squared of three at 95 %: a camera that is well says less than 1, so nothing of it is lost.
+constexpr double kVelocityGate = 7.81;
 
 template <int kAt>
 auto Diagonal(InertialFilter::Covariance& covariance) {
@@ -196,13 +198,27 @@ void InertialFilter::AbsorbWheels(const WheelOdometry& wheels, const SE3& T_imu_
             is_placed ? trust.placed_inflation * trust.placed_inflation : 1.0);
 }
 
-void InertialFilter::AbsorbVelocity(const Eigen::Vector3d& velocity_imu, double sigma) {
+InertialFilter::VelocityInnovation InertialFilter::Compare(
+    const Eigen::Vector3d& velocity_imu) const {
   const Eigen::Matrix3d R_imu_world = state_.T_world_imu.rotation.conjugate().toRotationMatrix();
   const Eigen::Vector3d predicted = R_imu_world * state_.v_world_imu;
-  Eigen::Matrix<double, 3, kSize> jacobian = Eigen::Matrix<double, 3, kSize>::Zero();
-  jacobian.block<3, 3>(0, kRotation) = Hat(predicted);
-  jacobian.block<3, 3>(0, kVelocity) = R_imu_world;
-  Absorb<3>(jacobian, velocity_imu - predicted, Eigen::Vector3d::Constant(sigma * sigma));
+  VelocityInnovation innovation;
+  innovation.jacobian.block<3, 3>(0, kRotation) = Hat(predicted);
+  innovation.jacobian.block<3, 3>(0, kVelocity) = R_imu_world;
+  innovation.value = velocity_imu - predicted;
+  return innovation;
+}
+
+void InertialFilter::AbsorbVelocity(const Eigen::Vector3d& velocity_imu, double sigma) {
+  const VelocityInnovation innovation = Compare(velocity_imu);
+  Absorb<3>(innovation.jacobian, innovation.value, Eigen::Vector3d::Constant(sigma * sigma));
+}
+
+bool InertialFilter::CanBe(const Eigen::Vector3d& velocity_imu, double sigma) const {
+  const VelocityInnovation innovation = Compare(velocity_imu);
+  Eigen::Matrix3d covariance = innovation.jacobian * covariance_ * innovation.jacobian.transpose();
+  covariance.diagonal().array() += sigma * sigma;
+  return innovation.value.dot(covariance.ldlt().solve(innovation.value)) <= kVelocityGate;
 }
 
 void InertialFilter::AbsorbRest(const ImuStatistics& samples) {

@@ -64,6 +64,9 @@ class InertialFilter {
 
   /// A velocity (m/s, IMU's frame) that another sensor tells; `sigma` of each axis.
   void AbsorbVelocity(const Eigen::Vector3d& velocity_imu, double sigma);
+  /// Whether such a velocity can be, by all that is known already (95 %). With few features a
+  /// camera is sure of speeds that the rover does not have.
+  bool CanBe(const Eigen::Vector3d& velocity_imu, double sigma) const;
 
   /// Zero velocity, and zero rotation so that the mean rate is the gyro's bias.
   void AbsorbRest(const ImuStatistics& samples);
@@ -76,6 +79,13 @@ class InertialFilter {
               const Eigen::Matrix<double, kRows, 1>& innovation,
               const Eigen::Matrix<double, kRows, 1>& variances, double caution = 1.0);
   void Correct(const Eigen::Matrix<double, kSize, 1>& error);
+
+  struct VelocityInnovation {
+    Eigen::Matrix<double, 3, kSize> jacobian = Eigen::Matrix<double, 3, kSize>::Zero();
+    Eigen::Vector3d value;
+  };
+  /// What a velocity has that the state has not.
+  VelocityInnovation Compare(const Eigen::Vector3d& velocity_imu) const;
 
   NavState state_;
   TimeNs last_pose_time_ = 0;  ///< of the last pose absorbed, with …

@@ -128,6 +128,17 @@ TEST(InertialFilter, WheelsSayLessWhereThePoseIsKnown) {
   EXPECT_LT(alone.covariance()(6, 6), placed.covariance()(6, 6));
 }
 
+TEST(InertialFilter, WhatVelocityCanBeDependsOnTheDoubt) {
+  const auto samples = RestingSamples(400, ExpSo3({0.1, -0.05, 0.0}), Eigen::Vector3d::Zero(),
+                                      Eigen::Vector3d::Zero());
+  InertialFilter filter = RestingFilter(samples);
+  EXPECT_TRUE(filter.CanBe({0.05, 0.0, 0.0}, 0.05));
+  EXPECT_FALSE(filter.CanBe({0.5, 0.0, 0.0}, 0.05));
+  EXPECT_TRUE(filter.CanBe({0.5, 0.0, 0.0}, 0.3));
+  filter.PropagateBlindly(AddSeconds(filter.state().time, 1.0));
+  EXPECT_TRUE(filter.CanBe({0.5, 0.0, 0.0}, 0.05));
+}
+
 TEST(InertialFilter, GravityKeepsItsPlaceWhereTheWorldIsAnother) {
   const auto samples = RestingSamples(400, ExpSo3({0.1, -0.05, 0.0}), Eigen::Vector3d::Zero(),
                                       Eigen::Vector3d::Zero());

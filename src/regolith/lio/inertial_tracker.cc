@@ -15,6 +15,9 @@ constexpr double kEarthGravity = 9.81;
 constexpr double kPlaced = 0.5;  // s
 // Of a velocity that two scans tell, 1 σ.
 constexpr double kScanVelocity = 0.3;  // m/s
+// A sensor that told a velocity that cannot be was on its way there before, and is not back at
+// once.
+constexpr double kDistrust = 5.0;  // s, as long as its window of keyframes may hold it
 
 }  // namespace
 
@@ -121,8 +124,13 @@ void InertialTracker::Step(const ImuSample& from, const ImuSample& to) {
   }
   for (; !velocities_.empty() && velocities_.front().time <= to.time; velocities_.pop_front()) {
     if (velocities_.front().time <= from.time) continue;
-    filter_->AbsorbVelocity(velocities_.front().velocity_imu, velocities_.front().sigma);
-    took_velocities_ = true;
+    const BodyVelocity& told = velocities_.front();
+    if (!filter_->CanBe(told.velocity_imu, told.sigma)) {
+      distrusted_until_ = AddSeconds(told.time, kDistrust);
+    } else if (told.time >= distrusted_until_) {
+      filter_->AbsorbVelocity(told.velocity_imu, told.sigma);
+      took_velocities_ = true;
+    }
   }
 }
 
