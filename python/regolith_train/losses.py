@@ -57,10 +57,17 @@ def sample_descriptors(descriptors, places):
     return functional.normalize(sampled[..., 0].transpose(1, 2), dim=-1)
 
 
+def products(first, second):
+    """Inner products of all pairs of rows, in f32: autocast's bf16 would not tell cosines apart that differ by less than 1/128, which
+    at the start of a training are all of them."""
+    with torch.autocast(first.device.type, enabled=False):
+        return first.float() @ second.float().transpose(-1, -2)
+
+
 def triplet_loss(first, second, places, valid, margin=1.0, negatives=8, radius=16.0):
     """The paper's sparse descriptor loss: pulls correspondences together, pushes the M nearest others (in descriptor space) of
     those at least `radius` pixels away by `margin` further."""
-    distance = (2 - 2 * first @ second.transpose(1, 2)).clamp(min=0)
+    distance = (2 - 2 * products(first, second)).clamp(min=0)
     positive = distance.diagonal(dim1=1, dim2=2)
     apart = torch.cdist(places, places) > radius
     allowed = apart & valid[:, None, :] & valid[:, :, None]
@@ -74,7 +81,7 @@ def contrastive_loss(first, second, teacher, places, valid, temperature, teacher
     """InfoNCE over the whole batch (van den Oord et al. 2018), its targets softened by how alike the teacher says that the points
     are. Points nearer than `radius` to the true one are no negatives: bilinear descriptors cannot tell them apart."""
     batch, count, _ = first.shape
-    similarity = first.reshape(batch * count, -1) @ second.reshape(batch * count, -1).T / temperature
+    similarity = products(first.reshape(batch * count, -1), second.reshape(batch * count, -1)) / temperature
     near = torch.zeros(batch, count, batch, count, dtype=torch.bool, device=first.device)
     index = torch.arange(batch)
     near[index, :, index] = torch.cdist(places, places) < radius
@@ -83,7 +90,7 @@ def contrastive_loss(first, second, teacher, places, valid, temperature, teacher
     usable = valid.reshape(-1)
     excluded = near | ~usable[None, :]
     similarity = similarity.masked_fill(excluded, -1e4)
-    likeness = (teacher.reshape(batch * count, -1) @ teacher.reshape(batch * count, -1).T) / 0.06
+    likeness = products(teacher.reshape(batch * count, -1), teacher.reshape(batch * count, -1)) / 0.06
     alike = functional.softmax(likeness.masked_fill(excluded, -1e4), dim=1)
     target = (1 - teacher_share) * torch.eye(batch * count, device=first.device) + teacher_share * alike
     rows = -(target * functional.log_softmax(similarity, dim=1)).sum(1)

@@ -156,6 +156,13 @@ class Descriptors(unittest.TestCase):
         sampled = losses.sample_descriptors(field, torch.tensor([[[3.5 + 8 * 2, 3.5 + 8 * 1]]]))
         torch.testing.assert_close(sampled[0, 0], field[0, :, 1, 2])
 
+    def test_descriptors_that_are_nearly_alike_are_told_apart_under_autocast(self):
+        generator = torch.Generator().manual_seed(3)
+        alike = torch.nn.functional.normalize(torch.ones(20, 64) + 0.05 * torch.randn(20, 64, generator=generator), dim=1)
+        with torch.autocast("cpu", torch.bfloat16):
+            products = losses.products(alike, alike)
+        torch.testing.assert_close(products.double(), alike.double() @ alike.double().T, atol=1e-5, rtol=0)
+
     def test_losses_prefer_what_matches(self):
         first = torch.nn.functional.normalize(torch.randn(2, 40, 32), dim=2)
         other = torch.nn.functional.normalize(torch.randn(2, 40, 32), dim=2)
