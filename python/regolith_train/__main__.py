@@ -145,6 +145,8 @@ def evaluate(arguments):
             return fail(error)
 
     simulated = simulated_groups(pair_folders(arguments.pairs), arguments.pairs_a_group)
+    if arguments.pairs and not simulated:
+        fail(f"{arguments.pairs}: holds no PLANET/SEED/pairs with pairs 0.1 to 2 m apart; make some by `regolith simulate --pairs`")
     print(report(arguments.methods, load, homographies, simulated, arguments.out))
 
 

@@ -77,14 +77,19 @@ def simulated_table(results):
     return "\n".join(lines) + "\n"
 
 
-def plot(results, path):
-    """Curves over rotation, scale and shift, one line a method."""
+def figure_of(*arguments, **options):
+    """pyplot.subplots for SVG, without a screen."""
     import matplotlib
 
     matplotlib.use("svg")
     from matplotlib import pyplot
 
-    figure, axes = pyplot.subplots(1, 3, figsize=(13, 4))
+    return pyplot.subplots(*arguments, **options)
+
+
+def plot(results, path):
+    """Curves over rotation, scale and shift, one line a method."""
+    figure, axes = figure_of(1, 3, figsize=(13, 4))
     for name, result in results.items():
         axes[0].plot(list(result["rotation"]), list(result["rotation"].values()), label=name)
         axes[1].plot(list(result["scale"]), list(result["scale"].values()), label=name)
@@ -102,14 +107,9 @@ def plot(results, path):
 
 def plot_simulated(results, path):
     """Correct matches of simulated pairs over their baseline, an axis a planet; dashed under another sun."""
-    import matplotlib
-
-    matplotlib.use("svg")
-    from matplotlib import pyplot
-
     groups = [name.split(", ") for name in next(iter(results.values()))["simulated"]]
     planets = sorted({planet for planet, _, _ in groups})
-    figure, axes = pyplot.subplots(1, len(planets), figsize=(6 * len(planets), 4), squeeze=False)
+    figure, axes = figure_of(1, len(planets), figsize=(6 * len(planets), 4), squeeze=False)
     for axis, planet in zip(axes[0], planets):
         for index, (method, result) in enumerate(results.items()):
             for sun, style in (("same sun", "-o"), ("other sun", "--o")):
@@ -126,12 +126,7 @@ def plot_simulated(results, path):
 
 def plot_curves(folder, path):
     """The losses of a training, smoothed over 20 rows, and those of the images kept out of it."""
-    import matplotlib
-
-    matplotlib.use("svg")
-    from matplotlib import pyplot
-
-    figure, axis = pyplot.subplots(figsize=(7, 4))
+    figure, axis = figure_of(figsize=(7, 4))
     for name, style in (("curve.csv", "-"), ("validation.csv", "o")):
         if not (pathlib.Path(folder) / name).exists():
             continue

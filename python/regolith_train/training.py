@@ -89,6 +89,8 @@ class Run:
         state = torch.load(path, map_location=self.device, weights_only=False)
         if state["network_name"] != self.options.network:
             raise SystemExit(f"{path}: holds {state['network_name']}, not {self.options.network}; name another --name")
+        if (state["options"].get("shape") or {}) != self.options.shape:
+            raise SystemExit(f"{path}: was begun with another --shape ({state['options'].get('shape')}); name another --name")
         self.network.load_state_dict(state["network"])
         self.optimiser.load_state_dict(state["optimiser"])
         self.average = state["average"]

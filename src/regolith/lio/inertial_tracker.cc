@@ -127,10 +127,13 @@ void InertialTracker::Step(const ImuSample& from, const ImuSample& to) {
     const BodyVelocity& told = velocities_.front();
     if (!filter_->CanBe(told.velocity_imu, told.sigma)) {
       distrusted_until_ = AddSeconds(told.time, kDistrust);
-    } else if (told.time >= distrusted_until_) {
-      filter_->AbsorbVelocity(told.velocity_imu, told.sigma);
-      took_velocities_ = true;
     }
+    if (told.time < distrusted_until_) {
+      ++distrusted_count_;
+      continue;
+    }
+    filter_->AbsorbVelocity(told.velocity_imu, told.sigma);
+    took_velocities_ = true;
   }
 }
 
@@ -181,6 +184,12 @@ std::vector<std::string> InertialTracker::Notices() const {
   if (gap_count_ > 0) {
     notices.push_back(Concatenate(gap_count_, " gaps in the IMU, the longest ", longest_gap_,
                                   " s, were bridged by constant velocity"));
+  }
+  if (distrusted_count_ > 0) {
+    notices.push_back(Concatenate(distrusted_count_,
+                                  " velocities of the camera were left out: they cannot be by what "
+                                  "scans and IMU say, or came less than ",
+                                  kDistrust, " s after one that cannot"));
   }
   return notices;
 }

@@ -80,7 +80,8 @@ class InertialTracker {
   std::deque<WheelOdometry> wheels_;
   std::deque<BodyVelocity> velocities_;
   bool took_velocities_ = false;
-  TimeNs distrusted_until_ = 0;   ///< velocities before it are left out
+  TimeNs distrusted_until_ = 0;  ///< velocities before it are left out
+  size_t distrusted_count_ = 0;
   std::optional<TimeNs> placed_;  ///< of the last NotePlaced
   std::optional<InertialFilter> filter_;
   TimeNs last_rest_ = 0;  ///< end of the last window of rest that was absorbed

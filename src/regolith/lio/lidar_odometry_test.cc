@@ -150,6 +150,33 @@ TEST(LidarOdometry, FollowsADriveWithAnImu) {
   EXPECT_TRUE(odometry.Notices().empty());
 }
 
+TEST(LidarOdometry, VelocitiesThatCannotBeAreLeftOutAndItSaysSo) {
+  ThreadPool threads(2);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  const auto tell = [&](double time, double forward) {
+    odometry.AddVelocity({FromSeconds(time), {forward, 0.0, 0.0}, 0.05});
+  };
+  // Sure of 3 m/s forwards, then of as much backwards: both are far from the drive's speed.
+  for (int i = 0; i < 20; ++i) tell(5.0 + 0.1 * i, i < 10 ? 3.0 : -3.0);
+  const auto estimates = Drive(odometry, 10.0);
+  EXPECT_LT(WorstError(estimates), 0.10);
+  ASSERT_EQ(odometry.Notices().size(), 1U);
+  EXPECT_NE(odometry.Notices()[0].find("20 velocities"), std::string::npos)
+      << odometry.Notices()[0];
+}
+
+TEST(LidarOdometry, AfterAVelocityThatCannotBeTheOthersWaitFiveSeconds) {
+  ThreadPool threads(2);
+  LidarOdometry odometry({}, Rig(true), &threads);
+  odometry.AddVelocity({FromSeconds(4.0), {3.0, 0.0, 0.0}, 0.05});
+  // Sure of nothing, so that they can be: the first lies within the five seconds.
+  odometry.AddVelocity({FromSeconds(8.9), {0.0, 0.0, 0.0}, 10.0});
+  odometry.AddVelocity({FromSeconds(9.1), {0.0, 0.0, 0.0}, 10.0});
+  Drive(odometry, 10.0);
+  ASSERT_EQ(odometry.Notices().size(), 1U);
+  EXPECT_EQ(odometry.Notices()[0].find("2 velocities"), 0U) << odometry.Notices()[0];
+}
+
 TEST(LidarOdometry, FollowsADriveWithoutAnImu) {
   ThreadPool threads(2);
   LidarOdometry odometry({}, Rig(false), &threads);
