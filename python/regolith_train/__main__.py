@@ -85,7 +85,7 @@ def train(arguments):
 
     from regolith_train.labels import label_path
     from regolith_train.networks import build
-    from regolith_train.training import TrainingOptions, train as run_training
+    from regolith_train.training import TrainingOptions, WrongInput, train as run_training
 
     config = pathlib.Path(arguments.config or CONFIGS / f"{arguments.network}.yaml")
     options = TrainingOptions(network=arguments.network, **yaml.safe_load(config.read_text(encoding="utf-8")))
@@ -103,11 +103,16 @@ def train(arguments):
         fail(f"{labels}: holds no labels of these pictures; run `label` first")
     folder = run_folder(arguments)
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "command.txt").write_text("python -m regolith_train " + shlex.join(sys.argv[1:]) + "\n", encoding="utf-8")
+    processes = os.environ.get("WORLD_SIZE")
+    program = f"torchrun --nproc-per-node {processes}" if processes else "python"
+    (folder / "command.txt").write_text(f"{program} -m regolith_train {shlex.join(sys.argv[1:])}\n", encoding="utf-8")
     from regolith_train.export import read_weights
 
     start = read_weights(arguments.start) if arguments.start else None
-    run_training(options, images, pair_folders(arguments.pairs), labels, folder, lambda line: print(line, flush=True), start)
+    try:
+        run_training(options, images, pair_folders(arguments.pairs), labels, folder, lambda line: print(line, flush=True), start)
+    except WrongInput as error:
+        fail(error)
 
 
 def export(arguments):

@@ -65,16 +65,24 @@ def products(first, second):
 
 
 def triplet_loss(first, second, places, valid, margin=1.0, negatives=8, radius=16.0):
-    """The paper's sparse descriptor loss: pulls correspondences together, pushes the M nearest others (in descriptor space) of
-    those at least `radius` pixels away by `margin` further."""
+    """The paper's sparse descriptor loss: a correspondence shall be nearer than M others by `margin` in the mean. They are the M next
+    ones in the second view, at least `radius` pixels away ("the surrounding area"), and for those apart from these already, the M
+    nearest as descriptors. Those alone draw an untrained network's descriptors together: the loss stays at its margin."""
     distance = (2 - 2 * products(first, second)).clamp(min=0)
     positive = distance.diagonal(dim1=1, dim2=2)
-    apart = torch.cdist(places, places) > radius
-    allowed = apart & valid[:, None, :] & valid[:, :, None]
-    others = distance.masked_fill(~allowed, 4.0)
-    nearest = others.topk(negatives, dim=2, largest=False).values.mean(2)
-    loss = functional.relu(margin + positive - nearest) * valid
-    return loss.sum() / valid.sum().clamp(min=1)
+    away = torch.cdist(places, places)
+    allowed = (away >= radius) & valid[:, None, :]
+    anchors = valid & allowed.any(2)
+
+    def hinge(order):
+        chosen = order.masked_fill(~allowed, float("inf")).topk(negatives, dim=2, largest=False)
+        usable = torch.isfinite(chosen.values)
+        negative = (distance.gather(2, chosen.indices) * usable).sum(2) / usable.sum(2).clamp(min=1)
+        return functional.relu(margin + positive - negative)
+
+    around = hinge(away)
+    loss = torch.where(around > 0, around, hinge(distance.detach())) * anchors
+    return loss.sum() / anchors.sum().clamp(min=1)
 
 
 def contrastive_loss(first, second, teacher, places, valid, temperature, teacher_share=0.4, radius=6.0):

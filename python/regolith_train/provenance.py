@@ -27,13 +27,12 @@ def licences_of(data):
 
 
 def describe(state, folder):
-    options = state["options"]
     command = pathlib.Path(folder) / "command.txt"
     return {
         "command": command.read_text(encoding="utf-8").strip() if command.exists() else "unknown",
-        "options": options,
+        "options": state["options"],
         "steps": state["step"],
-        "samples": state["step"] * options["batch"],
+        "samples": state["samples"],
         "teacher": TEACHER,
         "data": state["data"],
         "licences": licences_of(state["data"]),

@@ -12,15 +12,20 @@ import math
 import os
 import pathlib
 import time
+import types
 
 import torch
-from torch import distributed
+from torch import distributed, nn
 from torch.nn.parallel import DistributedDataParallel
 from torch.utils.data import DataLoader
 
 from regolith_train.data import Mixture, SimulatedPairs, SingleImages, validation
 from regolith_train.losses import LOSSES
 from regolith_train.networks import build, inputs
+
+
+class WrongInput(ValueError):
+    """What a user named does not fit together; the text says what to do."""
 
 
 @dataclasses.dataclass
@@ -72,11 +77,15 @@ class Run:
         torch.manual_seed(options.seed)
         self.device = torch.device("cuda", local_rank()) if torch.cuda.is_available() else torch.device("cpu")
         self.network = build(options.network, options.shape).to(self.device, memory_format=torch.channels_last)
+        if self.device.type == "cpu":
+            strided_depthwise_in_f32(self.network)
         self.parallel = DistributedDataParallel(self.network) if distributed.is_initialized() else self.network
+        self.processes = distributed.get_world_size() if distributed.is_initialized() else 1
         self.optimiser = torch.optim.AdamW(self.network.parameters(), lr=options.rate, weight_decay=options.weight_decay)
         # The mean of the weights over the last few hundred steps is better than any of them, and good at any time of the schedule.
         self.average = {name: value.clone() for name, value in self.network.state_dict().items()}
         self.step = 0
+        self.samples = 0  # seen, of all processes together
         self.data = {}  # what it was trained on: pictures by the first part of their names, pairs by scenario
         if self.checkpoint.exists():
             self.load(self.checkpoint)
@@ -88,28 +97,30 @@ class Run:
     def load(self, path):
         state = torch.load(path, map_location=self.device, weights_only=False)
         if state["network_name"] != self.options.network:
-            raise SystemExit(f"{path}: holds {state['network_name']}, not {self.options.network}; name another --name")
+            raise WrongInput(f"{path}: holds {state['network_name']}, not {self.options.network}; name another --name")
         if (state["options"].get("shape") or {}) != self.options.shape:
-            raise SystemExit(f"{path}: was begun with another --shape ({state['options'].get('shape')}); name another --name")
+            raise WrongInput(f"{path}: was begun with another --shape ({state['options'].get('shape')}); name another --name")
         self.network.load_state_dict(state["network"])
         self.optimiser.load_state_dict(state["optimiser"])
         self.average = state["average"]
-        self.step = state["step"]
+        self.step, self.samples = state["step"], state["samples"]
 
     def begin_with(self, weights):
         state = self.network.state_dict()
         # ONNX has no count of the batches that a normalisation has seen.
-        missing = [name for name in state if name not in weights and not name.endswith("num_batches_tracked")]
-        if missing:
-            raise SystemExit(f"the weights to start with lack {missing[0]} and {len(missing) - 1} more: another network's?")
+        unfit = [name for name, value in state.items() if not name.endswith("num_batches_tracked")
+                 and (name not in weights or weights[name].shape != value.shape)]  # fmt: skip
+        if unfit:
+            raise WrongInput(f"the weights to start with lack {unfit[0]} in this network's shape, and {len(unfit) - 1} more: "
+                             "those of another network, or of another --shape?")  # fmt: skip
         self.network.load_state_dict({**state, **{name: weights[name] for name in state if name in weights}})
         self.average = {name: value.clone() for name, value in self.network.state_dict().items()}
 
     def save(self):
         partial = self.folder / "checkpoint.partial.pt"
         torch.save({"network_name": self.options.network, "network": self.network.state_dict(),
-                    "average": self.average, "optimiser": self.optimiser.state_dict(), "step": self.step, "data": self.data,
-                    "options": dataclasses.asdict(self.options)}, partial)  # fmt: skip
+                    "average": self.average, "optimiser": self.optimiser.state_dict(), "step": self.step,
+                    "samples": self.samples, "data": self.data, "options": dataclasses.asdict(self.options)}, partial)  # fmt: skip
         partial.replace(self.checkpoint)
 
     def advance(self, sample):
@@ -123,6 +134,7 @@ class Run:
         self.optimiser.step()
         self.update_average()
         self.step += 1
+        self.samples += self.options.batch * self.processes
         return {name: float(value.detach()) for name, value in terms.items()}
 
     def terms(self, network, sample):
@@ -147,6 +159,18 @@ class Run:
                 self.average[name].lerp_(value, weight)
             else:
                 self.average[name].copy_(value)
+
+
+def strided_depthwise_in_f32(network):
+    """On a CPU, lets strided depthwise convolutions run in f32: oneDNN's backward pass of them takes six times as long in bf16."""
+
+    def forward(module, features):
+        with torch.autocast(features.device.type, enabled=False):
+            return nn.Conv2d.forward(module, features.float()).to(features.dtype)
+
+    for module in network.modules():
+        if isinstance(module, nn.Conv2d) and module.groups > 1 and module.stride != (1, 1):
+            module.forward = types.MethodType(forward, module)
 
 
 def local_rank():

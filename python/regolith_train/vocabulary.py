@@ -18,11 +18,21 @@ def collect(network, images, count=200):
     return torch.cat(rows)
 
 
+def spread_rows(rows, count, generator):
+    """Rows to begin with, each drawn by its squared distance from those before it (k-means++, Arthur and Vassilvitskii 2007): of rows
+    drawn evenly two may lie in one cluster, and no round brings them apart."""
+    chosen = [int(torch.randint(len(rows), (1,), generator=generator))]
+    distance = torch.full((len(rows),), float("inf"))
+    while len(chosen) < count:
+        distance = torch.minimum(distance, (2 - 2 * rows @ rows[chosen[-1]]).clamp(min=1e-9))
+        chosen.append(int(torch.multinomial(distance, 1, generator=generator)))
+    return rows[chosen].clone()
+
+
 def spherical_kmeans(rows, words, rounds=40, seed=1):
     """`words` unit centres (words × dimension) of unit rows; a centre that loses all its rows takes the row furthest from its
     own."""
-    generator = torch.Generator().manual_seed(seed)
-    centres = rows[torch.randperm(len(rows), generator=generator)[:words]].clone()
+    centres = spread_rows(rows, words, torch.Generator().manual_seed(seed))
     for _ in range(rounds):
         similarity = rows @ centres.T
         nearest, owner = similarity.max(1)

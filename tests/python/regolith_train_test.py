@@ -29,7 +29,7 @@ from regolith_train.homography import HomographyRange, random_homography, transf
 from regolith_train.inference import detect_and_describe, mutual_matches, score_map, suppress  # noqa: E402
 from regolith_train.labels import label_path  # noqa: E402
 from regolith_train.report import simulated_groups  # noqa: E402
-from regolith_train.training import TrainingOptions, mixture, train  # noqa: E402
+from regolith_train.training import TrainingOptions, WrongInput, mixture, strided_depthwise_in_f32, train  # noqa: E402
 from regolith_train.vocabulary import spherical_kmeans  # noqa: E402
 
 
@@ -42,9 +42,13 @@ from regolith_train.training import TrainingOptions, join_processes, train
 options = TrainingOptions(network="ghost", steps=2, batch=2, workers=0, warm_up=1, bf16=False, threads=1, checkpoint_every=1)
 rank, _ = join_processes()
 run = train(options, {images!r}, [], {labels!r}, {out!r} + f"/run_{{rank}}", progress=lambda line: None)
+assert run.samples == 8
 torch.save(run.network.state_dict(), {out!r} + f"/weights_{{rank}}.pt")
 distributed.destroy_process_group()
 """
+
+
+torch.manual_seed(11)  # Debian's torch begins with another seed each time
 
 
 def texture(height, width, seed=1):
@@ -172,6 +176,32 @@ class Descriptors(unittest.TestCase):
                      lambda b: losses.contrastive_loss(first, b, first, places, valid, 0.07)):  # fmt: skip
             self.assertLess(float(loss(first)), 0.5 * float(loss(other)))
 
+    def test_triplets_part_descriptors_that_an_untrained_network_has_alike(self):
+        generator = torch.Generator().manual_seed(5)
+        places = 250 * torch.rand(1, 60, 2, generator=generator)
+        common = torch.randn(32, generator=generator)
+        raw = [(common + 0.3 * torch.randn(1, 60, 32, generator=generator)).requires_grad_() for _ in range(2)]
+        valid = torch.ones(1, 60, dtype=torch.bool)
+        optimiser = torch.optim.Adam(raw, lr=0.02)
+
+        def loss():
+            return losses.triplet_loss(*(torch.nn.functional.normalize(each, dim=2) for each in raw), places, valid)
+
+        self.assertGreater(loss().item(), 0.9)
+        for _ in range(100):
+            optimiser.zero_grad()
+            loss().backward()
+            optimiser.step()
+        self.assertLess(loss().item(), 0.2)
+
+    def test_triplets_take_their_negatives_from_the_surrounding_area(self):
+        places = torch.tensor([[[0.0, 0.0], [5.0, 0.0], [20.0, 0.0], [200.0, 0.0]]])
+        first = torch.eye(4)[None].requires_grad_()
+        second = 0.8 * torch.eye(4)[None]
+        losses.triplet_loss(first, second, places, torch.ones(1, 4, dtype=torch.bool), margin=3.0, negatives=1).backward()
+        # Towards its own and away from the nearest one that is 16 px away: neither the one at 5 px nor the far one.
+        torch.testing.assert_close(first.grad[0, 0], torch.tensor([-0.4, 0.0, 0.4, 0.0]))
+
     def test_mutual_matches_of_a_permutation_are_the_permutation(self):
         rows = torch.nn.functional.normalize(torch.randn(30, 16), dim=1)
         order = torch.randperm(30)
@@ -225,7 +255,7 @@ class Training(unittest.TestCase):
         whole = train(options, self.images, [], self.labels, root / "whole", progress=lambda line: None)
         train(half, self.images, [], self.labels, root / "parts", progress=lambda line: None)
         parts = train(options, self.images, [], self.labels, root / "parts", progress=lambda line: None)
-        self.assertEqual((whole.step, parts.step), (4, 4))
+        self.assertEqual((whole.step, parts.step, parts.samples), (4, 4, 8))
         for name, value in whole.network.state_dict().items():
             torch.testing.assert_close(parts.network.state_dict()[name], value, msg=name)
 
@@ -255,6 +285,22 @@ class Training(unittest.TestCase):
         for name, value in states[0].items():
             if "running" not in name:  # each process normalises by its own samples
                 torch.testing.assert_close(states[1][name], value, msg=name)
+
+    def test_weights_of_another_shape_are_refused_by_name(self):
+        options = TrainingOptions(network="ghost", steps=1, batch=2, workers=0, bf16=False, threads=1)
+        narrow = networks.build("ghost", {"width": 32}).state_dict()
+        with self.assertRaisesRegex(WrongInput, "descriptor.0.0.weight"):
+            train(options, self.images, [], self.labels, pathlib.Path(self.folder.name) / "run", start=narrow)
+
+    def test_strided_depthwise_convolutions_in_f32_say_the_same(self):
+        network = networks.GhostPaper().eval()
+        image = torch.from_numpy(texture(64, 96))[None, None].float()
+        with torch.no_grad():
+            expected = network(image)
+            strided_depthwise_in_f32(network)
+            actual = network(image)
+        for one, other in zip(expected, actual):
+            torch.testing.assert_close(one, other)
 
     def test_what_is_kept_out_is_not_trained_on(self):
         options = TrainingOptions(pairs_share=0.0)
