@@ -202,6 +202,14 @@ class Descriptors(unittest.TestCase):
         # Towards its own and away from the nearest one that is 16 px away: neither the one at 5 px nor the far one.
         torch.testing.assert_close(first.grad[0, 0], torch.tensor([-0.4, 0.0, 0.4, 0.0]))
 
+    def test_triplets_apart_from_their_surroundings_take_the_nearest_descriptors(self):
+        places = torch.tensor([[[0.0, 0.0], [5.0, 0.0], [20.0, 0.0], [200.0, 0.0]]])
+        first = torch.eye(4)[None].requires_grad_()
+        second = 0.8 * torch.eye(4)[None]
+        second[0, 3, 0] = 0.5  # the far one looks a little like the first
+        losses.triplet_loss(first, second, places, torch.ones(1, 4, dtype=torch.bool), margin=1.0, negatives=1).backward()
+        torch.testing.assert_close(first.grad[0, 0], 0.5 * (second[0, 3] - second[0, 0]))
+
     def test_mutual_matches_of_a_permutation_are_the_permutation(self):
         rows = torch.nn.functional.normalize(torch.randn(30, 16), dim=1)
         order = torch.randperm(30)
@@ -301,6 +309,12 @@ class Training(unittest.TestCase):
             actual = network(image)
         for one, other in zip(expected, actual):
             torch.testing.assert_close(one, other)
+
+    def test_strided_depthwise_convolutions_stay_in_f32_under_autocast(self):
+        strided, plain = torch.nn.Conv2d(4, 4, 3, 2, groups=4), torch.nn.Conv2d(4, 4, 3, groups=4)
+        strided_depthwise_in_f32(torch.nn.ModuleList([strided, plain]))
+        with torch.autocast("cpu", torch.bfloat16):
+            self.assertEqual([layer(torch.rand(1, 4, 9, 9)).dtype for layer in (strided, plain)], [torch.float32, torch.bfloat16])
 
     def test_what_is_kept_out_is_not_trained_on(self):
         options = TrainingOptions(pairs_share=0.0)
