@@ -93,6 +93,8 @@ def train(arguments):
         value = getattr(arguments, field.name, None)
         if value is not None:
             options = dataclasses.replace(options, **{field.name: dict(value) if field.name == "shape" else value})
+    if arguments.pairs and options.pairs_share == 0.0:
+        fail(f"--pairs: {config} draws no simulated pairs (pairs_share: 0); leave them out, or ask for some by --pairs-share 0.3")
     try:
         build(options.network, options.shape)
     except ValueError as error:

@@ -7,6 +7,7 @@ A view is cut from an image by a random homography and changed photometrically. 
 """
 
 import dataclasses
+import os
 import pathlib
 
 import numpy
@@ -198,7 +199,9 @@ def load_flow(path):
     cached = path.with_name(path.name.replace("_1.png", "_flow.npy"))
     if not cached.exists():
         bands = read_two_bands(path.with_name(path.name.replace("_1.png", "_flow.tif")))
-        numpy.save(cached, bands)
+        partial = cached.with_name(f"{cached.stem}.{os.getpid()}.npy")  # several processes may come here at once
+        numpy.save(partial, bands)
+        partial.replace(cached)
     return numpy.load(cached, mmap_mode="r")
 
 

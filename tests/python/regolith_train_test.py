@@ -300,6 +300,13 @@ class Training(unittest.TestCase):
         with self.assertRaisesRegex(WrongInput, "descriptor.0.0.weight"):
             train(options, self.images, [], self.labels, pathlib.Path(self.folder.name) / "run", start=narrow)
 
+    def test_pairs_that_a_recipe_does_not_draw_from_are_refused(self):
+        package = pathlib.Path(__file__).resolve().parents[2] / "python"
+        told = subprocess.run([sys.executable, "-m", "regolith_train", "train", "--network", "superpoint", "--images", self.folder.name,
+                               "--pairs", self.folder.name], cwd=package, capture_output=True, text=True)  # fmt: skip
+        self.assertEqual(told.returncode, 2)
+        self.assertRegex(told.stderr, "^regolith_train: --pairs: .*superpoint.yaml draws no simulated pairs .*\n$")
+
     def test_strided_depthwise_convolutions_in_f32_say_the_same(self):
         network = networks.GhostPaper().eval()
         image = torch.from_numpy(texture(64, 96))[None, None].float()

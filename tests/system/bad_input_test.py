@@ -109,7 +109,8 @@ class BadRecordings(ProgramTest):
 
     def test_settings_that_cannot_be(self):
         self.assert_refused(self.run_on(RECORDING, "--set", "lio.voxel=3"), "lio.voxel")
-        self.assert_refused(self.run_on(RECORDING, "--set", "lio.map.voxel_size=-1"), "voxel_size")
+        self.assert_refused(self.run_on(RECORDING, "--set", "lio.map.voxel_size=-1"),
+                            "--set lio.map.voxel_size=-1: lio.map: expected voxel_size > 0")
         self.assert_refused(self.run_on(RECORDING, "--pipeline", "nonsense"), "nonsense", "lio")
         self.assert_refused(self.run_on(RECORDING, "--drop", "/imu/data:5"), "--drop")
         self.assert_refused(self.run_on(RECORDING, "--drop", "/nothing:5:6"), "/nothing")

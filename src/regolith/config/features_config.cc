@@ -3,7 +3,6 @@
 #include "regolith/config/features_config.h"
 
 #include "regolith/config/features_fields_internal.h"
-#include "regolith/core/error.h"
 
 namespace regolith {
 
@@ -12,11 +11,6 @@ FeatureOptions LoadFeatures(const YamlDocument& document) {
   FieldReader reader(document);
   reader("features", options);
   reader.Finish();
-  try {
-    options.Check();
-  } catch (const CheckError& error) {
-    throw InputError(document.name(), error.what());
-  }
   return options;
 }
 

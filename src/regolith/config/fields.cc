@@ -22,9 +22,23 @@ namespace regolith {
 struct YamlDocument::Node {
   YAML::Node yaml;
   std::string name;
+  std::vector<std::string> assignments;  ///< of --set, "key.subkey=value"
 };
 
 namespace {
+
+bool StartsWith(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+/// Whether `assignment` is what `problem` speaks of, found with the value of `key` ("a.b"; empty:
+/// of the whole): it gives that value, or one below it whose name is in the problem.
+bool Concerns(const std::string& assignment, const std::string& key, const std::string& problem) {
+  const std::string assigned = assignment.substr(0, assignment.find('='));
+  if (assigned == key || StartsWith(key, assigned + ".")) return true;
+  if (!key.empty() && !StartsWith(assigned, key + ".")) return false;
+  return problem.find(assigned.substr(assigned.rfind('.') + 1)) != std::string::npos;
+}
 
 YAML::Node Parse(const std::string& text, const std::string& name) {
   try {
@@ -124,7 +138,7 @@ YamlDocument YamlDocument::FromFile(const std::string& path) {
 }
 
 YamlDocument YamlDocument::FromText(const std::string& text, const std::string& name) {
-  return YamlDocument(std::make_unique<Node>(Node{Parse(text, name), name}));
+  return YamlDocument(std::make_unique<Node>(Node{Parse(text, name), name, {}}));
 }
 
 const std::string& YamlDocument::name() const { return node_->name; }
@@ -151,6 +165,7 @@ void YamlDocument::Set(const std::string& assignment) {
   const std::string name = node_->name;
   Overlay(FromText(key + ": " + text, "--set " + assignment));
   node_->name = name;
+  node_->assignments.push_back(assignment);
 }
 
 std::optional<std::string> YamlDocument::Take(const std::string& key) {
@@ -168,6 +183,7 @@ struct FieldReader::Implementation {
   YAML::Node node;
   std::string file;
   std::string path;  ///< keys that lead here, each followed by a dot
+  std::vector<std::string> assignments;
   std::set<std::string> known;
 
   YAML::Node Find(const char* key) {
@@ -175,10 +191,27 @@ struct FieldReader::Implementation {
     return static_cast<const YAML::Node&>(node)[key];
   }
 
+  /// The keys that lead here.
+  std::string Key() const { return path.substr(0, path.size() - (path.empty() ? 0 : 1)); }
+
+  /// Where `key` got what `problem` says of it: an assignment, or file and line of `at`.
+  std::string Place(const YAML::Node& at, const std::string& key,
+                    const std::string& problem) const {
+    for (const std::string& assignment : assignments) {
+      if (Concerns(assignment, key, problem)) return "--set " + assignment;
+    }
+    const int line = at.IsDefined() ? at.Mark().line + 1 : 0;
+    return line > 0 ? Concatenate(file, ":", line) : file;
+  }
+
   [[noreturn]] void FailAt(const YAML::Node& at, const std::string& key,
                            const std::string& problem) const {
-    const int line = at.IsDefined() ? at.Mark().line + 1 : 0;
-    throw InputError(line > 0 ? Concatenate(file, ":", line) : file, path + key + ": " + problem);
+    throw InputError(Place(at, path + key, problem), path + key + ": " + problem);
+  }
+
+  std::unique_ptr<FieldReader> Below(const YAML::Node& found, const std::string& key) const {
+    return std::unique_ptr<FieldReader>(new FieldReader(std::unique_ptr<Implementation>(
+        new Implementation{found, file, path + key + ".", assignments, {}})));
   }
 
   template <typename Value>
@@ -213,7 +246,8 @@ struct FieldReader::Implementation {
 };
 
 FieldReader::FieldReader(const YamlDocument& document)
-    : implementation_(new Implementation{document.node().yaml, document.node().name, "", {}}) {}
+    : implementation_(new Implementation{
+          document.node().yaml, document.node().name, "", document.node().assignments, {}}) {}
 
 FieldReader::FieldReader(std::unique_ptr<Implementation> implementation)
     : implementation_(std::move(implementation)) {}
@@ -299,12 +333,23 @@ void FieldReader::Fail(const char* key, const std::string& problem) const {
   implementation_->FailAt(implementation_->Find(key), key, problem);
 }
 
+void FieldReader::Refuse(const CheckError& error) const {
+  const std::string key = implementation_->Key();
+  throw InputError(implementation_->Place(implementation_->node, key, error.expectation()),
+                   (key.empty() ? "" : key + ": ") + error.expectation());
+}
+
+void FieldReader::Refuse(const InputError& error) const {
+  throw InputError(
+      implementation_->Place(implementation_->node, implementation_->Key(), error.what()),
+      error.what());
+}
+
 std::unique_ptr<FieldReader> FieldReader::Child(const char* key) {
   const YAML::Node found = implementation_->Find(key);
   if (!found.IsDefined()) return nullptr;
   if (!found.IsMap()) implementation_->FailAt(found, key, "expected `key: value` lines below it");
-  return std::unique_ptr<FieldReader>(new FieldReader(std::unique_ptr<Implementation>(
-      new Implementation{found, implementation_->file, implementation_->path + key + ".", {}})));
+  return implementation_->Below(found, key);
 }
 
 std::vector<std::unique_ptr<FieldReader>> FieldReader::Children(const char* key) {
@@ -315,8 +360,7 @@ std::vector<std::unique_ptr<FieldReader>> FieldReader::Children(const char* key)
   for (const YAML::Node& item : found) {
     if (!item.IsMap())
       implementation_->FailAt(item, key, "expected `key: value` lines in each item");
-    children.push_back(std::unique_ptr<FieldReader>(new FieldReader(std::unique_ptr<Implementation>(
-        new Implementation{item, implementation_->file, implementation_->path + key + ".", {}}))));
+    children.push_back(implementation_->Below(item, key));
   }
   return children;
 }

@@ -8,11 +8,13 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "regolith/core/check.h"
+#include "regolith/core/error.h"
 #include "regolith/geometry/se3.h"
 
 namespace regolith {
@@ -57,7 +59,15 @@ class YamlDocument {
   std::unique_ptr<Node> node_;
 };
 
-/// Fills structs from one map of a document. Errors are InputError "FILE:LINE: key: problem".
+/// Whether a struct of options can tell by itself that it makes no sense.
+template <typename Struct, typename = void>
+inline constexpr bool kHasCheck = false;
+template <typename Struct>
+inline constexpr bool kHasCheck<Struct, std::void_t<decltype(std::declval<Struct>().Check())>> =
+    true;
+
+/// Fills structs from one map of a document. Errors are InputError "FILE:LINE: key: problem", or
+/// "--set ASSIGNMENT: key: problem" where that is what is wrong.
 class FieldReader {
  public:
   explicit FieldReader(const YamlDocument& document);
@@ -94,6 +104,7 @@ class FieldReader {
     if (const auto child = Child(key)) {
       Fields(*child, value);
       child->Finish();
+      if constexpr (kHasCheck<Struct>) child->Check(value);
     }
   }
 
@@ -112,6 +123,7 @@ class FieldReader {
     for (const auto& child : Children(key)) {
       Fields(*child, value.emplace_back());
       child->Finish();
+      if constexpr (kHasCheck<Struct>) child->Check(value.back());
     }
   }
 
@@ -129,6 +141,17 @@ class FieldReader {
   std::vector<std::string> Keys() const;
   /// Throws InputError at the first key that was never asked for, with the nearest one that was.
   void Finish();
+  /// Runs the Check() of the struct that was read from this map. What it refuses is an InputError.
+  template <typename Struct>
+  void Check(const Struct& options) const {
+    try {
+      options.Check();
+    } catch (const CheckError& error) {
+      Refuse(error);
+    } catch (const InputError& error) {
+      Refuse(error);
+    }
+  }
   /// Throws InputError at the line of `key`, or of the file where the key is absent.
   [[noreturn]] void Fail(const char* key, const std::string& problem) const;
 
@@ -137,6 +160,8 @@ class FieldReader {
   explicit FieldReader(std::unique_ptr<Implementation> implementation);
   std::unique_ptr<FieldReader> Child(const char* key);
   std::vector<std::unique_ptr<FieldReader>> Children(const char* key);
+  [[noreturn]] void Refuse(const CheckError& error) const;
+  [[noreturn]] void Refuse(const InputError& error) const;  // which names its key
 
   std::unique_ptr<Implementation> implementation_;
 };

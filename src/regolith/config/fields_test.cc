@@ -14,6 +14,11 @@ namespace regolith {
 struct WheelOptions {
   double radius = 0.2;
   std::string name = "left";
+
+  void Check() const {
+    REGOLITH_CHECK(radius > 0.0, "radius=", radius);
+    if (name == "fifth") throw InputError("wheel.name", "a rover has four");
+  }
 };
 
 struct RoverOptions {
@@ -26,6 +31,8 @@ struct RoverOptions {
   std::optional<WheelOptions> spare;
   std::vector<WheelOptions> list;
   std::map<std::string, WheelOptions> named;
+
+  void Check() const { REGOLITH_CHECK(speed <= 1.0, "speed=", speed); }
 };
 
 template <typename Archive>
@@ -57,12 +64,15 @@ RoverOptions Read(const YamlDocument& document) {
   FieldReader reader(document);
   Fields(reader, options);
   reader.Finish();
+  reader.Check(options);
   return options;
 }
 
-std::string ErrorOf(const std::string& text) {
+std::string ErrorOf(const std::string& text, const std::vector<std::string>& assignments = {}) {
   try {
-    Read(YamlDocument::FromText(text, "rover.yaml"));
+    YamlDocument document = YamlDocument::FromText(text, "rover.yaml");
+    for (const std::string& assignment : assignments) document.Set(assignment);
+    Read(document);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -134,6 +144,34 @@ TEST(Fields, ReflectedRotationsAreRefused) {
       ErrorOf(
           "T_imu_base:\n  - [1, 0, 0, 0]\n  - [0, -1, 0, 0]\n  - [0, 0, 1, 0]\n  - [0, 0, 0, 1]\n"),
       AllOf(HasSubstr("T_imu_base"), HasSubstr("reflected")));
+}
+
+TEST(Fields, WhatAStructRefusesIsSaidOfItsKey) {
+  EXPECT_EQ(ErrorOf("speed: 1\nwheel:\n  radius: -1\n"),
+            "rover.yaml:3: wheel: expected radius > 0.0: radius=-1");
+  EXPECT_EQ(ErrorOf("list:\n  - radius: -1\n"),
+            "rover.yaml:2: list: expected radius > 0.0: radius=-1");
+  EXPECT_EQ(ErrorOf("named: {rear: {radius: -1}}\n"),
+            "rover.yaml:1: named.rear: expected radius > 0.0: radius=-1");
+  EXPECT_EQ(ErrorOf("wheel: {name: fifth}\n"), "rover.yaml:1: wheel.name: a rover has four");
+  EXPECT_EQ(ErrorOf("speed: 2\n"), "rover.yaml:1: expected speed <= 1.0: speed=2");
+}
+
+TEST(Fields, WhatAnAssignmentDoesWrongIsSaidOfIt) {
+  const std::string file = "speed: 1\nwheel: {name: right}\n";
+  EXPECT_EQ(ErrorOf(file, {"speed=1", "wheel.radius=-1"}),
+            "--set wheel.radius=-1: wheel: expected radius > 0.0: radius=-1");
+  EXPECT_EQ(ErrorOf(file, {"speed=2"}), "--set speed=2: expected speed <= 1.0: speed=2");
+  EXPECT_EQ(ErrorOf(file, {"wheel.name=fifth"}),
+            "--set wheel.name=fifth: wheel.name: a rover has four");
+  EXPECT_EQ(ErrorOf(file, {"speed=fast"}), "--set speed=fast: speed: `fast`: expected a number");
+  EXPECT_THAT(ErrorOf(file, {"wheel={radios: 1}"}),
+              AllOf(HasSubstr("--set wheel={radios: 1}: wheel.radios"), HasSubstr("`radius`")));
+  // The file's own fault stays the file's.
+  EXPECT_EQ(ErrorOf("speed: 2\n", {"wheel.radius=1"}),
+            "rover.yaml: expected speed <= 1.0: speed=2");
+  EXPECT_EQ(ErrorOf("wheel: {name: fifth}\n", {"wheel.radius=1"}),
+            "rover.yaml: wheel.name: a rover has four");
 }
 
 TEST(YamlDocument, OverlaysMergeMapsAndReplaceTheRest) {

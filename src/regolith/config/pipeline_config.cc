@@ -9,7 +9,6 @@
 #include "regolith/config/features_fields_internal.h"
 #include "regolith/config/lego_loam_fields_internal.h"
 #include "regolith/config/stereo_fields_internal.h"
-#include "regolith/core/error.h"
 
 namespace regolith {
 
@@ -278,23 +277,7 @@ PipelineOptions LoadPipeline(const YamlDocument& document) {
   FieldReader reader(document);
   Fields(reader, options);
   reader.Finish();
-  try {
-    REGOLITH_CHECK(options.feedback_delay > 0.0, "feedback_delay=", options.feedback_delay);
-    REGOLITH_CHECK(options.lidar_silence > 0.0, "lidar_silence=", options.lidar_silence);
-    options.features.Check();
-    options.lio.Check();
-    options.lego_loam.Check();
-    options.vio.Check();
-    options.lidar_depth.Check();
-    options.stereo.Check();
-    options.places.Check();
-    options.visual_loops.Check();
-    options.supervisor.Check();
-    options.backend.Check();
-    options.map.Check();
-  } catch (const CheckError& error) {
-    throw InputError(document.name(), error.what());
-  }
+  reader.Check(options);
   return options;
 }
 

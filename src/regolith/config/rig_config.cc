@@ -4,8 +4,6 @@
 
 #include <filesystem>
 
-#include "regolith/core/error.h"
-
 namespace regolith {
 namespace {
 
@@ -120,11 +118,7 @@ RigCalibration LoadRig(const YamlDocument& document) {
   for (auto& [name, camera] : rig.cameras) {
     camera.mask_file = BesideRig(camera.mask_file, document.name());
   }
-  try {
-    rig.Check();
-  } catch (const InputError& error) {
-    throw InputError(document.name(), error.what());
-  }
+  reader.Check(rig);
   return rig;
 }
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "regolith/config/ros_node_config.h"
 
-#include "regolith/core/error.h"
-
 namespace regolith {
 
 template <typename Archive>
@@ -69,11 +67,7 @@ Options Load(const YamlDocument& document) {
   FieldReader reader(document);
   Fields(reader, options);
   reader.Finish();
-  try {
-    options.Check();
-  } catch (const CheckError& error) {
-    throw InputError(document.name(), error.what());
-  }
+  reader.Check(options);
   return options;
 }
 

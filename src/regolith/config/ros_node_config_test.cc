@@ -39,5 +39,20 @@ TEST(RosNodeConfig, SaysWhichParameterIsWrong) {
   EXPECT_THAT(ErrorOf("tf_rate: -1"), HasSubstr("/regolith"));
 }
 
+TEST(RosNodeConfig, SaysThatTheSimulatorHasNoSuchCamera) {
+  const auto load = [](const std::string& text) {
+    LoadSimNode(YamlDocument::FromText(text, "/regolith_sim"));
+  };
+  EXPECT_NO_THROW(load("camera: left"));
+  EXPECT_NO_THROW(load("camera: ''"));
+  try {
+    load("camera: top");
+    FAIL() << "a camera that does not exist was taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                AllOf(HasSubstr("/regolith_sim"), HasSubstr("camera=top"), HasSubstr("mono")));
+  }
+}
+
 }  // namespace
 }  // namespace regolith

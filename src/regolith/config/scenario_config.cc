@@ -6,7 +6,6 @@
 #include <iterator>
 #include <string>
 
-#include "regolith/core/error.h"
 #include "regolith/core/version.h"
 
 namespace regolith {
@@ -248,11 +247,7 @@ ScenarioOptions LoadScenario(const YamlDocument& document) {
   FieldReader reader(document);
   Fields(reader, options);
   reader.Finish();
-  try {
-    options.Check();
-  } catch (const InputError& error) {
-    throw InputError(document.name(), error.what());
-  }
+  reader.Check(options);
   return options;
 }
 

@@ -11,7 +11,14 @@ namespace regolith {
 /// A broken precondition or invariant: a fault in the calling code, never of a user's input.
 class CheckError : public std::logic_error {
  public:
-  using std::logic_error::logic_error;
+  CheckError(const std::string& place, const std::string& expectation)
+      : std::logic_error(place + ": " + expectation), place_length_(place.size() + 2) {}
+
+  /// What was expected, and the values found instead; without the place in the sources.
+  const char* expectation() const noexcept { return what() + place_length_; }
+
+ private:
+  size_t place_length_;
 };
 
 /// The parts written one after the other, as by operator<<.
@@ -25,10 +32,11 @@ std::string Concatenate(const Parts&... parts) {
 }  // namespace regolith
 
 /// Throws CheckError with the condition, the place and the values given after it.
-#define REGOLITH_CHECK(condition, ...)                                           \
-  do {                                                                           \
-    if (!(condition)) {                                                          \
-      throw ::regolith::CheckError(::regolith::Concatenate(                      \
-          __FILE__, ":", __LINE__, ": expected " #condition ": ", __VA_ARGS__)); \
-    }                                                                            \
+#define REGOLITH_CHECK(condition, ...)                                        \
+  do {                                                                        \
+    if (!(condition)) {                                                       \
+      throw ::regolith::CheckError(                                           \
+          ::regolith::Concatenate(__FILE__, ":", __LINE__),                   \
+          ::regolith::Concatenate("expected " #condition ": ", __VA_ARGS__)); \
+    }                                                                         \
   } while (false)

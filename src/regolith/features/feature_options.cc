@@ -75,7 +75,7 @@ void FeatureOptions::Check() const {
                   [&](const FrontendName& candidate) { return frontend == candidate.name; });
   REGOLITH_CHECK(known, "frontend=", frontend);
   REGOLITH_CHECK(max_keypoints >= 1 && max_keypoints <= kMaxKeypoints,
-                 "max_keypoints=", max_keypoints);
+                 "max_keypoints=", max_keypoints, " of at most ", kMaxKeypoints);
   REGOLITH_CHECK(min_distance >= 1, "min_distance=", min_distance);
   REGOLITH_CHECK(nms_radius >= 1, "nms_radius=", nms_radius);
   REGOLITH_CHECK(border >= 0, "border=", border);

@@ -56,6 +56,9 @@ struct PipelineOptions {
 
   /// Of the network that `features` names, where it names one. No setting: the program finds it.
   std::optional<ModelManifest> feature_model;
+
+  /// Throws CheckError on values that make no pipeline.
+  void Check() const;
 };
 
 }  // namespace regolith

@@ -15,7 +15,7 @@ struct VisualLoopOptions {
 
   void Check() const {
     REGOLITH_CHECK(max_keypoints >= 1 && max_keypoints <= kMaxKeypoints,
-                   "max_keypoints=", max_keypoints);
+                   "max_keypoints=", max_keypoints, " of at most ", kMaxKeypoints);
     REGOLITH_CHECK(scan_distance >= 0.0, "scan_distance=", scan_distance);
   }
 };
