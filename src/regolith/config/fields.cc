@@ -5,6 +5,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -31,13 +32,25 @@ bool StartsWith(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
+/// Whether `text` holds `name`, and not as a part of a longer one.
+bool Names(const std::string& text, const std::string& name) {
+  const auto inside = [&](size_t at) {
+    return at < text.size() &&
+           (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_');
+  };
+  for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    if ((at == 0 || !inside(at - 1)) && !inside(at + name.size())) return true;
+  }
+  return false;
+}
+
 /// Whether `assignment` is what `problem` speaks of, found with the value of `key` ("a.b"; empty:
 /// of the whole): it gives that value, or one below it whose name is in the problem.
 bool Concerns(const std::string& assignment, const std::string& key, const std::string& problem) {
   const std::string assigned = assignment.substr(0, assignment.find('='));
   if (assigned == key || StartsWith(key, assigned + ".")) return true;
   if (!key.empty() && !StartsWith(assigned, key + ".")) return false;
-  return problem.find(assigned.substr(assigned.rfind('.') + 1)) != std::string::npos;
+  return Names(problem, assigned.substr(assigned.rfind('.') + 1));
 }
 
 YAML::Node Parse(const std::string& text, const std::string& name) {
@@ -194,19 +207,31 @@ struct FieldReader::Implementation {
   /// The keys that lead here.
   std::string Key() const { return path.substr(0, path.size() - (path.empty() ? 0 : 1)); }
 
-  /// Where `key` got what `problem` says of it: an assignment, or file and line of `at`.
-  std::string Place(const YAML::Node& at, const std::string& key,
-                    const std::string& problem) const {
-    for (const std::string& assignment : assignments) {
-      if (Concerns(assignment, key, problem)) return "--set " + assignment;
-    }
+  /// The assignment that `problem`, found with the value of `key`, comes from; "--set " before it.
+  std::optional<std::string> Assignment(const std::string& key, const std::string& problem) const {
+    // Of two assignments to one key the later holds.
+    const auto found = std::find_if(
+        assignments.rbegin(), assignments.rend(),
+        [&](const std::string& candidate) { return Concerns(candidate, key, problem); });
+    if (found == assignments.rend()) return std::nullopt;
+    return "--set " + *found;
+  }
+
+  std::string FileAndLine(const YAML::Node& at) const {
     const int line = at.IsDefined() ? at.Mark().line + 1 : 0;
     return line > 0 ? Concatenate(file, ":", line) : file;
   }
 
   [[noreturn]] void FailAt(const YAML::Node& at, const std::string& key,
                            const std::string& problem) const {
-    throw InputError(Place(at, path + key, problem), path + key + ": " + problem);
+    throw InputError(Assignment(path + key, problem).value_or(FileAndLine(at)),
+                     path + key + ": " + problem);
+  }
+
+  /// What is wrong with the struct of this map may take several values, some of them assigned.
+  [[noreturn]] void Refuse(const std::string& problem, const std::string& message) const {
+    const auto assignment = Assignment(Key(), problem);
+    throw InputError(assignment ? file + " with " + *assignment : FileAndLine(node), message);
   }
 
   std::unique_ptr<FieldReader> Below(const YAML::Node& found, const std::string& key) const {
@@ -335,14 +360,12 @@ void FieldReader::Fail(const char* key, const std::string& problem) const {
 
 void FieldReader::Refuse(const CheckError& error) const {
   const std::string key = implementation_->Key();
-  throw InputError(implementation_->Place(implementation_->node, key, error.expectation()),
-                   (key.empty() ? "" : key + ": ") + error.expectation());
+  implementation_->Refuse(error.expectation(),
+                          (key.empty() ? "" : key + ": ") + error.expectation());
 }
 
 void FieldReader::Refuse(const InputError& error) const {
-  throw InputError(
-      implementation_->Place(implementation_->node, implementation_->Key(), error.what()),
-      error.what());
+  implementation_->Refuse(error.what(), error.what());
 }
 
 std::unique_ptr<FieldReader> FieldReader::Child(const char* key) {

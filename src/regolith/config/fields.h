@@ -67,7 +67,8 @@ inline constexpr bool kHasCheck<Struct, std::void_t<decltype(std::declval<Struct
     true;
 
 /// Fills structs from one map of a document. Errors are InputError "FILE:LINE: key: problem", or
-/// "--set ASSIGNMENT: key: problem" where that is what is wrong.
+/// "--set ASSIGNMENT: key: problem" where that is what is wrong, or both, where a struct's Check
+/// refuses what file and assignment make together.
 class FieldReader {
  public:
   explicit FieldReader(const YamlDocument& document);

@@ -160,15 +160,21 @@ TEST(Fields, WhatAStructRefusesIsSaidOfItsKey) {
 TEST(Fields, WhatAnAssignmentDoesWrongIsSaidOfIt) {
   const std::string file = "speed: 1\nwheel: {name: right}\n";
   EXPECT_EQ(ErrorOf(file, {"speed=1", "wheel.radius=-1"}),
-            "--set wheel.radius=-1: wheel: expected radius > 0.0: radius=-1");
-  EXPECT_EQ(ErrorOf(file, {"speed=2"}), "--set speed=2: expected speed <= 1.0: speed=2");
+            "rover.yaml with --set wheel.radius=-1: wheel: expected radius > 0.0: radius=-1");
+  EXPECT_EQ(ErrorOf(file, {"speed=2"}),
+            "rover.yaml with --set speed=2: expected speed <= 1.0: speed=2");
   EXPECT_EQ(ErrorOf(file, {"wheel.name=fifth"}),
-            "--set wheel.name=fifth: wheel.name: a rover has four");
+            "rover.yaml with --set wheel.name=fifth: wheel.name: a rover has four");
   EXPECT_EQ(ErrorOf(file, {"speed=fast"}), "--set speed=fast: speed: `fast`: expected a number");
   EXPECT_THAT(ErrorOf(file, {"wheel={radios: 1}"}),
               AllOf(HasSubstr("--set wheel={radios: 1}: wheel.radios"), HasSubstr("`radius`")));
+  // Of two assignments to one key the later holds.
+  EXPECT_EQ(ErrorOf(file, {"speed=1", "speed=2"}),
+            "rover.yaml with --set speed=2: expected speed <= 1.0: speed=2");
   // The file's own fault stays the file's.
   EXPECT_EQ(ErrorOf("speed: 2\n", {"wheel.radius=1"}),
+            "rover.yaml: expected speed <= 1.0: speed=2");
+  EXPECT_EQ(ErrorOf("speed: 2\n", {"named.peed=  {radius: 1}"}),
             "rover.yaml: expected speed <= 1.0: speed=2");
   EXPECT_EQ(ErrorOf("wheel: {name: fifth}\n", {"wheel.radius=1"}),
             "rover.yaml: wheel.name: a rover has four");

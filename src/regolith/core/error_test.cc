@@ -21,6 +21,7 @@ TEST(Check, ThrowsWithConditionAndValues) {
   } catch (const CheckError& error) {
     const std::string message = error.what();
     EXPECT_NE(message.find("rings > 0"), std::string::npos) << message;
+    EXPECT_NE(message.find("rings=-1"), std::string::npos) << message;
     EXPECT_NE(message.find("error_test.cc"), std::string::npos) << message;
     EXPECT_STREQ(error.expectation(), "expected rings > 0: rings=-1");
   }
