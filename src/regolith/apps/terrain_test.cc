@@ -33,6 +33,11 @@ struct RealModel {
   double coarsest;
 };
 
+// Named by its file and scenario, not by the bytes of the struct.
+void PrintTo(const RealModel& model, std::ostream* out) {
+  *out << model.file << " in " << model.scenario;
+}
+
 const RealModel kModels[] = {
     {"moon_lola_88S_10m.tif", "lunar_short", 12, 40, 0.5, true, 2.0, 2.5},
     {"moon_lola_88S_10m.tif", "lunar_pole", 12, 40, 0.5, true, 2.0, 2.5},
