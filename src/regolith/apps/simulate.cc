@@ -155,10 +155,10 @@ int Simulate(const SimulateArguments& arguments) {
   }
   SetQuiet(arguments.quiet);
   const ScenarioOptions options = ResolveScenario(arguments);
+  PrepareOutputFolder(arguments.out, arguments.overwrite);
   ThreadPool threads(arguments.threads);
   const auto simulator = MakeSimulator(arguments, options, &threads);
   if (StopRequested()) return kInterrupted;
-  PrepareOutputFolder(arguments.out, arguments.overwrite);
   WriteSurroundings(arguments, *simulator, options);
 
   const bool recorded = arguments.pairs_only || WriteRecording(arguments, *simulator);
