@@ -147,10 +147,11 @@ void Planner::ReportFailure() const {
   }
   throw InputError(
       "drive.max_slope_deg",
-      Concatenate("no route was found below ", options_.max_slope_deg,
-                  " degrees of slope and clear of rocks too tall for the rover; choose another "
-                  "--seed, gentler relief, fewer rocks (terrain.rocks), a shorter drive.length or a "
-                  "flatter crop, or move the waypoints"));
+      Concatenate(
+          "no route was found below ", options_.max_slope_deg,
+          " degrees of slope and clear of rocks too tall for the rover; choose another "
+          "--seed, gentler relief, fewer rocks (terrain.rocks), a shorter drive.length or a "
+          "flatter crop, or move the waypoints"));
 }
 
 // Shares of the nominal route that are steep: much too steep is bad, some slope is wanted.
