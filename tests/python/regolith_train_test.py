@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
 
@@ -29,7 +30,15 @@ from regolith_train.homography import HomographyRange, random_homography, transf
 from regolith_train.inference import detect_and_describe, mutual_matches, score_map, suppress  # noqa: E402
 from regolith_train.labels import label_path  # noqa: E402
 from regolith_train.report import simulated_groups  # noqa: E402
-from regolith_train.training import TrainingOptions, WrongInput, mixture, strided_depthwise_in_f32, train  # noqa: E402
+from regolith_train.training import (  # noqa: E402
+    Run,
+    TrainingOptions,
+    WrongInput,
+    has_bf16,
+    mixture,
+    strided_depthwise_in_f32,
+    train,
+)
 from regolith_train.vocabulary import spherical_kmeans  # noqa: E402
 
 
@@ -266,6 +275,19 @@ class Training(unittest.TestCase):
         self.assertEqual((whole.step, parts.step, parts.samples), (4, 4, 8))
         for name, value in whole.network.state_dict().items():
             torch.testing.assert_close(parts.network.state_dict()[name], value, msg=name)
+
+    def test_bf16_is_taken_where_the_processor_has_it(self):
+        cpu, root = torch.device("cpu"), pathlib.Path(self.folder.name)
+        for flags, expected in (("fpu avx512f avx512_bf16", True), ("fpu amx_bf16 amx_tile", True), ("fpu avx2 avx512f", False)):
+            information = root / "cpuinfo"
+            information.write_text(f"processor\t: 0\nflags\t\t: {flags}\n", encoding="utf-8")
+            self.assertEqual(has_bf16(cpu, information), expected, flags)
+        self.assertFalse(has_bf16(cpu, root / "missing"))
+        asked = TrainingOptions(network="ghost", bf16=True)
+        with mock.patch("regolith_train.training.has_bf16", return_value=False):
+            self.assertFalse(Run(asked, root / "without").options.bf16)
+        with mock.patch("regolith_train.training.has_bf16", return_value=True):
+            self.assertTrue(Run(asked, root / "with").options.bf16)
 
     def test_processes_share_the_samples_of_one(self):
         alone = Mixture([SingleImages(self.images, self.labels)], [1.0], 24, seed=3)

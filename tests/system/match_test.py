@@ -130,10 +130,8 @@ class Results(MatchTest):
                 summary = self.summary()
                 self.assertEqual((summary["complete"], summary["features"]), (True, name))
                 self.check_score(summary, self.check_tables(summary, 300))
-                # The paper's networks are rivals, trained as far as time allowed: how good they are is a result, not a promise.
-                rival = name in ("ghost_paper", "superpoint")
-                self.assertGreaterEqual(summary["precision_inliers"], 0.7 if rival else 0.95)
-                self.assertGreaterEqual(summary["inliers"], 20 if rival else 50)
+                self.assertGreaterEqual(summary["precision_inliers"], 0.95)
+                self.assertGreaterEqual(summary["inliers"], 50)
                 self.assertGreaterEqual(summary["repeatability_3px"], summary["repeatability_1px"])
                 self.assertGreaterEqual(summary["repeatability_3px"], 0.3)
                 for word in (name, "keypoints", "kept", "correct", "ms"):
