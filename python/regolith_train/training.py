@@ -71,13 +71,11 @@ class Run:
     """Network, optimiser and step of one training run, and the folder that they are kept in."""
 
     def __init__(self, options, folder):
-        self.options = options
         self.folder = pathlib.Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
         torch.manual_seed(options.seed)
         self.device = torch.device("cuda", local_rank()) if torch.cuda.is_available() else torch.device("cpu")
-        if options.bf16 and not has_bf16(self.device):
-            self.options = dataclasses.replace(options, bf16=False)
+        self.options = dataclasses.replace(options, bf16=options.bf16 and has_bf16(self.device))
         self.network = build(options.network, options.shape).to(self.device, memory_format=torch.channels_last)
         if self.device.type == "cpu":
             strided_depthwise_in_f32(self.network)
@@ -179,7 +177,7 @@ def has_bf16(device, cpu_information="/proc/cpuinfo"):
     """Whether the processor computes in bf16 itself. A CPU without it does so by f32 and conversions: 10.8 s a step of 4 pairs for
     `superpoint` on one core of a Xeon, 3.3 s in f32."""
     if device.type == "cuda":
-        return torch.cuda.is_bf16_supported()
+        return torch.cuda.get_device_capability(device)[0] >= 8  # is_bf16_supported() counts emulation in
     try:
         words = pathlib.Path(cpu_information).read_text(encoding="utf-8").split()
     except OSError:

@@ -4,6 +4,7 @@
 """The training package: truths of its geometry and losses, and a training of a few steps that resumes. Runs on Debian's python3-torch
 (/usr/bin/python3); without any torch it reports itself as skipped (exit code 77)."""
 
+import json
 import math
 import os
 import pathlib
@@ -286,6 +287,11 @@ class Training(unittest.TestCase):
         asked = TrainingOptions(network="ghost", bf16=True)
         with mock.patch("regolith_train.training.has_bf16", return_value=False):
             self.assertFalse(Run(asked, root / "without").options.bf16)
+            lines = []
+            train(TrainingOptions(network="ghost", steps=1, batch=2, workers=0, threads=1, bf16=True), self.images, [], self.labels,
+                  root / "run", progress=lines.append)  # fmt: skip
+        self.assertEqual(lines, ["this processor has no bf16: training in f32"])
+        self.assertFalse(json.loads((root / "run" / "options.json").read_text(encoding="utf-8"))["bf16"])
         with mock.patch("regolith_train.training.has_bf16", return_value=True):
             self.assertTrue(Run(asked, root / "with").options.bf16)
 
