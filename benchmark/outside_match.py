@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Matches simulated image pairs with a public feature network, for the tables of `regolith reproduce`.
 
-usage: outside_match.py PAIRS --method xfeat|aliked --out DIR
+usage: outside_match.py PAIRS --method xfeat|aliked [--second-look] --out DIR
 
 PAIRS is a folder `pairs/` that `regolith simulate --pairs N` wrote. Of each pair ID, DIR/ID/summary.json has the keys that those of
 `regolith match` have: matches, inliers, known_inliers, correct_inliers, total_ms (median of three). 500 keypoints an image, mutual
@@ -25,7 +25,7 @@ import torch
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "python"))
 from regolith_train.data import read_two_bands
-from regolith_train.inference import mutual_matches
+from regolith_train.evaluation import match_pair
 from regolith_train.methods import OUTSIDE
 
 METHODS = {"xfeat": "xfeat", "aliked": "aliked-n16"}
@@ -50,22 +50,18 @@ def true_places(flow, pixels):
     return places, ~missing.any(0) & (apart <= TEAR), absent
 
 
-def match(extract, first, second):
-    pixels, _, descriptors = extract(first)
-    others, _, other_descriptors = extract(second)
-    rows, columns = mutual_matches(descriptors, other_descriptors)
-    a, b = pixels[rows].double().numpy(), others[columns].double().numpy()
-    inliers = numpy.zeros(len(a), bool)
-    if len(a) >= 8:
-        _, mask = cv2.findFundamentalMat(a, b, cv2.USAC_MAGSAC, 1.0, 0.999, 10000)
-        inliers = numpy.zeros(len(a), bool) if mask is None else mask.ravel().astype(bool)
-    return a, b, inliers
+def keep_inliers(first, second):
+    if len(first) < 8:
+        return numpy.zeros(len(first), bool)
+    _, mask = cv2.findFundamentalMat(first, second, cv2.USAC_MAGSAC, 1.0, 0.999, 10000)
+    return numpy.zeros(len(first), bool) if mask is None else mask.ravel().astype(bool)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("pairs", type=pathlib.Path)
     parser.add_argument("--method", choices=sorted(METHODS), required=True)
+    parser.add_argument("--second-look", action="store_true", help="at the farther image, as `regolith match` does")
     parser.add_argument("--out", type=pathlib.Path, required=True)
     arguments = parser.parse_args()
     torch.set_num_threads(THREADS)
@@ -75,11 +71,11 @@ def main():
     for name in names:
         images = [torch.from_numpy(cv2.imread(str(arguments.pairs / f"{name}_{part}.png"), cv2.IMREAD_GRAYSCALE).astype(numpy.float32) / 255)
                   for part in (1, 2)]  # fmt: skip
-        match(extract, *images)
+        match_pair(extract, *images, keep_inliers, arguments.second_look)
         times = []
         for _ in range(ROUNDS):
             start = time.perf_counter()
-            first, second, inliers = match(extract, *images)
+            first, second, inliers = match_pair(extract, *images, keep_inliers, arguments.second_look)
             times.append(1000 * (time.perf_counter() - start))
         places, known, absent = true_places(read_two_bands(arguments.pairs / f"{name}_flow.tif"), first)
         with numpy.errstate(invalid="ignore"):

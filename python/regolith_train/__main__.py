@@ -154,7 +154,7 @@ def evaluate(arguments):
     simulated = simulated_groups(pair_folders(arguments.pairs), arguments.pairs_a_group)
     if arguments.pairs and not simulated:
         fail(f"{arguments.pairs}: holds no PLANET/SEED/pairs with pairs 0.1 to 2 m apart; make some by `regolith simulate --pairs`")
-    print(report(arguments.methods, load, homographies, simulated, arguments.out))
+    print(report(arguments.methods, load, homographies, simulated, arguments.out, arguments.second_look))
 
 
 def curves(arguments):
@@ -212,6 +212,7 @@ def parser():
     added.add_argument("--homographies", default=DATA / "homography")
     added.add_argument("--pairs", help="folder below which `simulate --pairs` wrote PLANET/SEED/pairs")
     added.add_argument("--pairs-a-group", type=int, default=100, metavar="N", help="of simulated pairs of one planet, sun and baseline")
+    added.add_argument("--second-look", action="store_true", help="at the farther image of a simulated pair, as `regolith match` does")
     added.add_argument("--out", default="features", help="folder of tables and plots")
     command("curves", curves, "plot the losses of a run")
     return top

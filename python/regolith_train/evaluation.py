@@ -103,16 +103,58 @@ def keep_inliers(first, second):
     return numpy.ones(len(first), dtype=bool) if mask is None else mask[:, 0] != 0
 
 
-def score_simulated(extract, pairs):
+def plane_homography(first, second, inliers):
+    """As PlaneHomography of view_warp.h: that of most of the inliers within 8 px; None where fewer than ten follow one."""
+    import cv2
+
+    if inliers.sum() < 10:
+        return None
+    homography, mask = cv2.findHomography(first[inliers], second[inliers], cv2.USAC_MAGSAC, 8.0, maxIters=1000, confidence=0.999)
+    if homography is None or mask.sum() < 10 or numpy.linalg.det(homography) <= 0:
+        return None
+    return homography
+
+
+def match_pair(extract, first, second, keep, second_look=False):
+    """Mutual nearest neighbours of two images and which of them `keep` (places in both → mask) takes for inliers: n × 2, n × 2, n.
+
+    With a second look, the farther image is seen again as from where the nearer one was taken, by the homography of the inliers, as
+    `regolith match` does (MatchingFrontend::LookAgain), and the result with more inliers is taken.
+    """
+    looks = [extract(first), extract(second)]
+    result = matched(looks, keep)
+    homography = plane_homography(*result) if second_look else None
+    if homography is None:
+        return result
+    # The derivative's determinant is det(H) / depth³.
+    depth = numpy.median(result[0][result[2]] @ homography[2, :2] + homography[2, 2])
+    farther = 0 if numpy.linalg.det(homography) / depth**3 >= 1 else 1
+    to_near = homography if farther == 0 else numpy.linalg.inv(homography)
+    image, near = ((first, second), (second, first))[farther]
+    view, _ = warp_image(image[None], to_near, near.shape[1], near.shape[0], continued=True)
+    pixels, scores, descriptors = extract(view[0])
+    places = transform(numpy.linalg.inv(to_near), pixels.double().numpy())
+    with numpy.errstate(invalid="ignore"):
+        inside = torch.from_numpy(((places >= 4) & (places <= numpy.array(image.T.shape) - 5)).all(1))
+    looks[farther] = torch.from_numpy(places)[inside], scores[inside], descriptors[inside]
+    again = matched(looks, keep)
+    return again if again[2].sum() > result[2].sum() else result
+
+
+def matched(looks, keep):
+    (pixels, _, descriptors), (others, _, other_descriptors) = looks
+    rows, columns = (index.numpy() for index in mutual_matches(descriptors, other_descriptors))
+    first, second = pixels.double().numpy()[rows], others.double().numpy()[columns]
+    return first, second, keep(first, second)
+
+
+def score_simulated(extract, pairs, second_look=False):
     """Simulated pairs (paths of their first images), mutual nearest neighbours, the same rejection for all methods: medians of the
     matches kept and of those of them that are right within 3 px, precision over all."""
     kept, correct, known = [], [], 0
     for path in pairs:
         images = [torch.from_numpy(load_grey(one)) for one in (path, SimulatedPairs.other(path))]
-        (pixels, _, descriptors), (others, _, other_descriptors) = extract(images[0]), extract(images[1])
-        rows, columns = (index.numpy() for index in mutual_matches(descriptors, other_descriptors))
-        first, second = pixels.double().numpy()[rows], others.double().numpy()[columns]
-        inliers = keep_inliers(first, second)
+        first, second, inliers = match_pair(extract, *images, keep_inliers, second_look)
         error = numpy.linalg.norm(flow_at(load_flow(path), first[inliers]) - second[inliers], axis=1)
         kept.append(int(inliers.sum()))
         correct.append(int((error < TOLERANCE).sum()))

@@ -52,8 +52,9 @@ def transform(homography, points):
     return mapped[:, :2] / depth
 
 
-def warp_image(image, homography, width, height):
-    """A torch image (1 × h × w) as seen through a homography; outside it is 0. Also where it is inside (1 × height × width)."""
+def warp_image(image, homography, width, height, continued=False):
+    """A torch image (1 × h × w) as seen through a homography; outside it is 0, or its last pixels go on where it is `continued`.
+    Also where it is inside (1 × height × width)."""
     inverse = torch.from_numpy(numpy.linalg.inv(homography)).to(torch.float32)
     rows, columns = torch.meshgrid(torch.arange(height, dtype=torch.float32),
                                    torch.arange(width, dtype=torch.float32), indexing="ij")  # fmt: skip
@@ -62,5 +63,6 @@ def warp_image(image, homography, width, height):
     size = torch.tensor([image.shape[-1], image.shape[-2]], dtype=torch.float32)
     grid = (2 * source + 1) / size - 1
     inside = ((source >= 0) & (source <= size - 1)).all(-1) & (pixels[..., 2] > 1e-6)
-    warped = functional.grid_sample(image[None], grid[None], align_corners=False)[0]
-    return warped * inside, inside[None]
+    if continued:
+        return functional.grid_sample(image[None], grid[None], align_corners=False, padding_mode="border")[0], inside[None]
+    return functional.grid_sample(image[None], grid[None], align_corners=False)[0] * inside, inside[None]

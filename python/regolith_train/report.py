@@ -17,15 +17,16 @@ ROTATIONS = range(0, 181, 20)  # degrees
 SCALES = [0.5, 0.7, 0.85, 1.2, 1.4, 2.0]
 
 
-def score_method(extract, homographies, simulated):
-    """All figures of one method. `simulated`: name → paths of their first images."""
+def score_method(extract, homographies, simulated, second_look=False):
+    """All figures of one method. `simulated`: name → paths of their first images, with a second look at those where it is asked
+    for."""
     result = {"oxford": evaluation.score_oxford(extract, homographies)}
     image, _ = evaluation.fitted(next((pathlib.Path(homographies) / "oxford_graf").glob("img1.*")))
     result["shifts"] = evaluation.score_shifts(extract, image)
     extract = remember(extract, image)
     result["rotation"] = {angle: evaluation.score_turn(extract, image, angle=angle)["correct"] for angle in ROTATIONS}
     result["scale"] = {scale: evaluation.score_turn(extract, image, scale=scale)["correct"] for scale in SCALES}
-    result["simulated"] = {name: evaluation.score_simulated(extract, pairs) for name, pairs in simulated.items()}
+    result["simulated"] = {name: evaluation.score_simulated(extract, pairs, second_look) for name, pairs in simulated.items()}
     return result
 
 
@@ -154,12 +155,12 @@ def save(figure, path):
     figure.savefig(path, metadata={"Date": None})
 
 
-def report(names, load, homographies, simulated, out, progress=print):
+def report(names, load, homographies, simulated, out, second_look=False, progress=print):
     """Scores the methods of `names` (`load` makes extracts of them) and writes tables, plots and figures into the folder `out`.
-    `simulated`: see simulated_groups."""
+    `simulated`: see simulated_groups; `second_look`: see match_pair."""
     results = {}
     for name in names:
-        results[name] = score_method(load(name), homographies, simulated)
+        results[name] = score_method(load(name), homographies, simulated, second_look)
         progress(f"{name}: {json.dumps(results[name]['oxford'])}, shifts {min(results[name]['shifts'].values()):.2f}")
     out = pathlib.Path(out)
     out.mkdir(parents=True, exist_ok=True)

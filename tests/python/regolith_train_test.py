@@ -25,7 +25,7 @@ except ImportError as error:
     print(f"SKIPPED: {error}; apt-get install python3-torch python3-pil")
     sys.exit(77)
 
-from regolith_train import losses, networks  # noqa: E402
+from regolith_train import evaluation, losses, networks  # noqa: E402
 from regolith_train.data import Mixture, SingleImages, flow_at  # noqa: E402
 from regolith_train.homography import HomographyRange, random_homography, transform, warp_image  # noqa: E402
 from regolith_train.inference import detect_and_describe, mutual_matches, score_map, suppress  # noqa: E402
@@ -232,6 +232,48 @@ class Descriptors(unittest.TestCase):
         words = spherical_kmeans(rows, 4, seed=3)
         torch.testing.assert_close(words.norm(dim=1), torch.ones(4))
         self.assertGreater(float((words @ centres.T).max(1).values.min()), 0.95)
+
+
+class SecondLook(unittest.TestCase):
+    """Images whose grey is the place on the ground; a method that knows ground by its grey where it is as large as in the nearer one."""
+
+    TO_NEAR = numpy.array([[1.0, 0, 0], [0, 2.0, -40.0], [0, 0, 1]])
+
+    @staticmethod
+    def extract(image):
+        rows, columns = torch.meshgrid(torch.arange(6, 90, 7), torch.arange(6, 120, 7), indexing="ij")
+        pixels = torch.stack([columns.flatten(), rows.flatten()], dim=1).float()
+        grey = image[rows.flatten(), columns.flatten()]
+        below = image[rows.flatten() + 1, columns.flatten()]
+        # Those of the first column always.
+        known = ((below - grey - 0.005).abs() < 0.002) | (columns.flatten() == 6)
+        angles = torch.where(known, 3 * grey + columns.flatten() / 40, torch.zeros(len(grey)))
+        return pixels, grey, torch.stack([angles.cos(), angles.sin()], dim=1)
+
+    def match(self, first, second, to_second):
+        def keep(one, other):
+            return numpy.linalg.norm(transform(to_second, one) - other, axis=1) < 3.0
+
+        with mock.patch.object(evaluation, "plane_homography", lambda *_: to_second):
+            looks = [evaluation.match_pair(self.extract, first, second, keep, second_look=again) for again in (False, True)]
+        return [int(inliers.sum()) for _, _, inliers in looks], looks[1]
+
+    def test_the_farther_image_is_seen_from_where_the_nearer_one_was_taken(self):
+        rows = torch.arange(96.0)[:, None].expand(96, 128)
+        far, near = 0.01 * rows, 0.01 * (rows + 40) / 2  # the nearer one's rows are twice as many a length of ground
+        (once, again), (first, second, inliers) = self.match(far, near, self.TO_NEAR)
+        self.assertGreater(again, max(60, 5 * once))
+        # Places of the far image itself, not of its view.
+        self.assertTrue(bool((first[inliers][:, 1] < 68).all()))
+        numpy.testing.assert_allclose(transform(self.TO_NEAR, first[inliers]), second[inliers], atol=3.0)
+        (once, again), _ = self.match(near, far, numpy.linalg.inv(self.TO_NEAR))
+        self.assertGreater(again, max(60, 5 * once))
+
+    def test_what_does_not_agree_better_is_not_taken(self):
+        near = 0.01 * (torch.arange(96.0)[:, None].expand(96, 128) + 40) / 2
+        (once, again), _ = self.match(near, near, numpy.eye(3))
+        self.assertEqual(once, again)
+        self.assertGreater(once, 60)
 
 
 class Training(unittest.TestCase):

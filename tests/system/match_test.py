@@ -137,6 +137,23 @@ class Results(MatchTest):
                 for word in (name, "keypoints", "kept", "correct", "ms"):
                     self.assertIn(word, result.stdout)
 
+    def test_a_second_look_at_stretched_ground(self):
+        """Ground that the way ahead stretches by 1.8 has several times as many right matches when it is looked at again."""
+        ahead = numpy.array([[1.1, 0, -32.0], [0, 1.8, -190.0], [0, 0, 1]])
+        second = self.folder / "ahead.png"
+        Image.fromarray(warped(texture(), ahead)).save(second)
+        self.homography.write_text("\n".join(" ".join(map(repr, row)) for row in ahead.tolist()) + "\n")
+        correct = {}
+        for name in {"orb", "ghost"} & set(FEATURES):
+            for looks in ("false", "true"):
+                self.assert_done(self.match("--features", name, "--homography", self.homography, "--overwrite", "--set",
+                                            f"features.matcher.second_look={looks}", second=second))  # fmt: skip
+                summary = self.summary()
+                correct[looks] = summary["correct_inliers"]
+                self.assertEqual("look_again" in summary["stages"], looks == "true")
+            self.assertGreater(correct["true"], 2 * correct["false"], name)
+            self.assertGreaterEqual(summary["precision_inliers"], 0.95)
+
     def test_times_add_up(self):
         self.assert_done(self.match("--features", "orb"))
         summary = self.summary()

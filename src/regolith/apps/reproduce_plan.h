@@ -40,10 +40,12 @@ struct PaperMatches {
 struct MatchMethod {
   std::string key;
   std::string label;
-  std::string features;  ///< empty: an outside package, named by its key
+  std::string features;  ///< of `regolith match`; empty: an outside package
   bool adaptive = true;
   std::optional<PaperMatches> paper_moon;
   std::optional<PaperMatches> paper_mars;
+  std::string package = {};  ///< of outside_match.py
+  bool second_look = false;
 };
 
 struct Scene {

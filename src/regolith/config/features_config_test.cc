@@ -40,7 +40,7 @@ FeatureOptions AllChanged() {
   options.optical_flow = {15, 2, 20, 0.75, 1e-3};
   options.orb = {6, 1.25, 25, 7};
   options.shi_tomasi = {0.02, 5};
-  options.matcher = {0.9, 0.5, 60, false, false, 0.9, 0.4};
+  options.matcher = {0.9, 0.5, 60, false, false, 0.9, 0.4, false};
   options.rejection = {1.5, 0.99, 500, 14, 6, 0.3, 5.0};
   options.memory = {7, 40.0};
   return options;

@@ -53,6 +53,7 @@ void Fields(Archive& archive, DescriptorMatcherOptions& matcher) {
   archive("guided", matcher.guided);
   archive("guided_ratio", matcher.guided_ratio);
   archive("guided_similarity", matcher.guided_similarity);
+  archive("second_look", matcher.second_look);
 }
 
 template <typename Archive>

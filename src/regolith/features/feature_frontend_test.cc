@@ -13,6 +13,7 @@
 #include "regolith/core/random.h"
 #include "regolith/features/lk_frontend.h"
 #include "regolith/features/test_texture_internal.h"
+#include "regolith/features/view_warp.h"
 #include "regolith/geometry/so3.h"
 
 namespace regolith {
@@ -316,6 +317,44 @@ TEST_P(Frontends, MatchPairsApartFromTheStream) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Frontends, testing::Values("orb", "st_lk"));
+
+/// How many of a pair's inliers are right within 3 pixels, by the homography between the images.
+int CountRight(const PairMatches& pair, const Eigen::Matrix3d& H_second_first) {
+  int right = 0;
+  for (size_t i = 0; i < pair.matches.size(); ++i) {
+    const Eigen::Vector2d one =
+        pair.first.pixels[static_cast<size_t>(pair.matches[i].first)].cast<double>();
+    const Eigen::Vector2d other =
+        pair.second.pixels[static_cast<size_t>(pair.matches[i].second)].cast<double>();
+    const Eigen::Vector2d expected = (H_second_first * one.homogeneous()).hnormalized();
+    right += pair.inliers[i] != 0 && (expected - other).norm() < 3.0 ? 1 : 0;
+  }
+  return right;
+}
+
+// Whichever image is the farther one.
+TEST(MatchingFrontend, LooksAgainAtGroundThatTheWayAheadStretches) {
+  const Image farther = TestTexture(21).View(kWidth, kHeight, Eigen::Vector2d::Zero());
+  const Eigen::Matrix3d H_near_far =
+      (Eigen::Matrix3d() << 1.1, 0.0, -32.0, 0.0, 1.5, -120.0, 0.0, 0.0, 1.0).finished();
+  const Image nearer = WarpImage(farther, H_near_far, kWidth, kHeight, 0).image;
+  FeatureOptions options = OptionsOf("orb");
+  const auto twice = FeatureFrontend::Create(options, nullptr, std::nullopt);
+  options.matcher.second_look = false;
+  const auto once = FeatureFrontend::Create(options, nullptr, std::nullopt);
+  const int right_once = CountRight(once->MatchPair(farther, nearer), H_near_far);
+  const PairMatches pair = twice->MatchPair(farther, nearer);
+  testing::Test::RecordProperty("right_once", right_once);
+  testing::Test::RecordProperty("right_twice", CountRight(pair, H_near_far));
+  EXPECT_GT(CountRight(pair, H_near_far), 2 * right_once);
+  EXPECT_GT(CountRight(twice->MatchPair(nearer, farther), H_near_far.inverse()), 2 * right_once);
+  EXPECT_LE(pair.first.size(), static_cast<size_t>(options.max_keypoints));
+  for (const Eigen::Vector2f& pixel : pair.first.pixels) {
+    EXPECT_GE(pixel.minCoeff(), 0.0F);
+    EXPECT_LT(pixel.x(), static_cast<float>(kWidth));
+    EXPECT_LT(pixel.y(), static_cast<float>(kHeight));
+  }
+}
 
 /// Shi–Tomasi's corners with descriptors of the place that they show: what a perfect network would
 /// say.

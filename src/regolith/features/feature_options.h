@@ -85,6 +85,9 @@ struct DescriptorMatcherOptions {
   bool guided = true;
   double guided_ratio = 0.95;
   double guided_similarity = 0.5;
+  /// The farther image of a pair is looked at a second time as from where the other was taken, by
+  /// the homography of the first time's inliers.
+  bool second_look = true;
 
   void Check() const;
 };

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 #include "regolith/features/neighbour_motion.h"
 #include "regolith/features/outlier_rejection.h"
 #include "regolith/features/track_stream.h"
+#include "regolith/features/view_warp.h"
 
 namespace regolith {
 namespace {
@@ -61,14 +65,22 @@ class MatchingFrontend final : public FeatureFrontend {
   /// Keypoints with their bearings; those without one are dropped.
   void Detect(const Image& image, const Image* mask, FeatureSet* keypoints,
               std::vector<Eigen::Vector3d>* bearings);
+  void FindBearings(FeatureSet* keypoints, std::vector<Eigen::Vector3d>* bearings) const;
   void MatchTracks();
   /// Leaves the inliers in matches_; says how many were not.
   int RejectMatches();
   void ContinueTracks();
+  /// Matches a pair's keypoints and rejects outliers for a first time. `bearings` are those of the
+  /// keypoints.
+  void MatchFirst(const Correspondences& bearings, PairMatches* pair);
+  /// Looks at the farther image again as from where the nearer one was taken; what is found so
+  /// takes the place of `pair` and `bearings` if more of it agrees.
+  void LookAgain(const Image& first, const Image& second, Correspondences* bearings,
+                 PairMatches* pair);
   /// The places and bearings of the pair's matches.
-  Correspondences Matched(const PairMatches& pair, const Correspondences& all) const;
+  Correspondences Matched(const PairMatches& pair, const Correspondences& bearings) const;
   /// Matches a pair again, near where its inliers lead.
-  void MatchGuided(const Correspondences& matched, PairMatches* pair);
+  void MatchGuided(const Correspondences& bearings, PairMatches* pair);
 
   Observation Observed(size_t keypoint) const {
     return {keypoints_.pixels[keypoint], bearings_[keypoint], &keypoints_.descriptors, keypoint};
@@ -97,6 +109,11 @@ void MatchingFrontend::Detect(const Image& image, const Image* mask, FeatureSet*
                               std::vector<Eigen::Vector3d>* bearings) {
   extractor_->Extract(image, mask, options_.max_keypoints, keypoints);
   detected_ = static_cast<int>(keypoints->size());
+  FindBearings(keypoints, bearings);
+}
+
+void MatchingFrontend::FindBearings(FeatureSet* keypoints,
+                                    std::vector<Eigen::Vector3d>* bearings) const {
   bearings->clear();
   std::vector<size_t> blind;
   for (size_t i = 0; i < keypoints->size(); ++i) {
@@ -176,48 +193,91 @@ PairMatches MatchingFrontend::MatchPair(const Image& first, const Image& second)
   // The stream's thresholds are forgotten, so that a pair does not depend on what came before.
   extractor_->Reset();
   Stopwatch stopwatch;
-  Correspondences all;
-  Detect(first, nullptr, &pair.first, &all.first_bearings);
+  Correspondences bearings;
+  Detect(first, nullptr, &pair.first, &bearings.first_bearings);
   stopwatch.Lap("extract");
   AppendStages("extract_1", *extractor_, stopwatch.stages().back().milliseconds, &pair.stages);
   pair.first_status = extractor_->status();
   Stopwatch second_stopwatch;
-  Detect(second, nullptr, &pair.second, &all.second_bearings);
+  Detect(second, nullptr, &pair.second, &bearings.second_bearings);
   second_stopwatch.Lap("extract");
   AppendStages("extract_2", *extractor_, second_stopwatch.stages().back().milliseconds,
                &pair.stages);
   pair.second_status = extractor_->status();
   Stopwatch rest;
-  if (pair.first.size() > 0 && pair.second.size() > 0) {
-    matcher_.Match(pair.first.descriptors, pair.second.descriptors, &pair.matches);
+  MatchFirst(bearings, &pair);
+  rest.Lap("match_first");
+  if (options_.matcher.second_look) {
+    LookAgain(first, second, &bearings, &pair);
+    rest.Lap("look_again");
   }
-  Correspondences matched = Matched(pair, all);
-  // Where bits are compared, the second time brings more wrong ones than right ones.
+  // Where bits are compared, the guided time brings more wrong ones than right ones.
   if (options_.matcher.guided && pair.first.descriptors.type == DescriptorType::kFloat) {
-    rest.Lap("match_first");
-    pair.inliers =
-        RejectOutliers(matched, geometry.focal(), std::nullopt, options_.rejection).inliers;
-    rest.Lap("reject_first");
-    MatchGuided(matched, &pair);
-    matched = Matched(pair, all);
+    MatchGuided(bearings, &pair);
   }
-  FinishPair(matched, geometry, options_.rejection, &rest, &pair);
+  FinishPair(Matched(pair, bearings), geometry, options_.rejection, &rest, &pair);
   return pair;
 }
 
+void MatchingFrontend::MatchFirst(const Correspondences& bearings, PairMatches* pair) {
+  pair->matches.clear();
+  if (pair->first.size() > 0 && pair->second.size() > 0) {
+    matcher_.Match(pair->first.descriptors, pair->second.descriptors, &pair->matches);
+  }
+  OutlierRejection rejection = RejectOutliers(Matched(*pair, bearings), stream_.geometry().focal(),
+                                              std::nullopt, options_.rejection);
+  pair->inliers = std::move(rejection.inliers);
+}
+
+void MatchingFrontend::LookAgain(const Image& first, const Image& second, Correspondences* bearings,
+                                 PairMatches* pair) {
+  const Correspondences matched = Matched(*pair, *bearings);
+  const auto H_second_first = PlaneHomography(matched.first, matched.second, pair->inliers);
+  if (!H_second_first) return;
+  // The farther one is enlarged: the other way round, details would be lost.
+  const bool first_is_farther = MedianEnlargement(*H_second_first, matched.first) >= 1.0;
+  const Image& farther = first_is_farther ? first : second;
+  const Image& nearer = first_is_farther ? second : first;
+  const Eigen::Matrix3d H_near_far =
+      first_is_farther ? *H_second_first : Eigen::Matrix3d(H_second_first->inverse());
+  const WarpedView view =
+      WarpImage(farther, H_near_far, nearer.width, nearer.height, options_.border);
+  PairMatches again = *pair;
+  Correspondences again_bearings = *bearings;
+  FeatureSet* keypoints = first_is_farther ? &again.first : &again.second;
+  extractor_->Reset();
+  extractor_->Extract(view.image, &view.mask, options_.max_keypoints, keypoints);
+  const Eigen::Matrix3d H_far_near = H_near_far.inverse();
+  keypoints->scales.clear();  // they would be the view's
+  for (Eigen::Vector2f& pixel : keypoints->pixels) {
+    pixel = (H_far_near * pixel.cast<double>().homogeneous()).hnormalized().cast<float>();
+  }
+  FindBearings(keypoints,
+               first_is_farther ? &again_bearings.first_bearings : &again_bearings.second_bearings);
+  MatchFirst(again_bearings, &again);
+  const auto agreeing = [](const PairMatches& one) {
+    return std::count(one.inliers.begin(), one.inliers.end(), uint8_t{1});
+  };
+  if (agreeing(again) <= agreeing(*pair)) return;
+  *pair = std::move(again);
+  *bearings = std::move(again_bearings);
+}
+
 Correspondences MatchingFrontend::Matched(const PairMatches& pair,
-                                          const Correspondences& all) const {
+                                          const Correspondences& bearings) const {
   Correspondences matched;
   for (const FeatureMatch& match : pair.matches) {
     const auto one = static_cast<size_t>(match.first);
     const auto other = static_cast<size_t>(match.second);
-    stream_.geometry().Append({pair.first.pixels[one], all.first_bearings[one]},
-                              {pair.second.pixels[other], all.second_bearings[other]}, &matched);
+    stream_.geometry().Append({pair.first.pixels[one], bearings.first_bearings[one]},
+                              {pair.second.pixels[other], bearings.second_bearings[other]},
+                              &matched);
   }
   return matched;
 }
 
-void MatchingFrontend::MatchGuided(const Correspondences& matched, PairMatches* pair) {
+void MatchingFrontend::MatchGuided(const Correspondences& bearings, PairMatches* pair) {
+  const Correspondences matched = Matched(*pair, bearings);
   if (!PredictFromNeighbours(matched.first, matched.second, pair->inliers, pair->first.pixels,
                              options_.rejection, &guide_)) {
     return;

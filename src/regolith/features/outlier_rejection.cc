@@ -11,6 +11,7 @@
 #include "regolith/core/check.h"
 #include "regolith/features/fundamental_matrix.h"
 #include "regolith/features/known_rotation.h"
+#include "regolith/features/magsac_internal.h"
 #include "regolith/features/neighbour_motion.h"
 #include "regolith/features/relative_pose.h"
 
@@ -21,25 +22,14 @@ namespace {
 // the essential matrix but do not help to find it: on the plane z = 1 they lie too far out.
 constexpr double kMinBearingZ = 0.1;
 
-cv::UsacParams Magsac(const OutlierRejectionOptions& options) {
-  cv::UsacParams params;
-  params.score = cv::SCORE_METHOD_MAGSAC;
-  params.loMethod = cv::LOCAL_OPTIM_SIGMA;
-  params.sampler = cv::SAMPLING_UNIFORM;
-  params.randomGeneratorState = 1;
-  params.isParallel = false;  // so that results do not depend on threads
-  params.confidence = options.confidence;
-  params.maxIterations = options.max_iterations;
-  params.loSampleSize = 14;
-  params.loIterations = 10;
-  params.threshold = 2.0 * options.epipolar_sigma;
-  return params;
+cv::UsacParams MagsacOf(const OutlierRejectionOptions& options) {
+  return Magsac(2.0 * options.epipolar_sigma, options.confidence, options.max_iterations);
 }
 
 /// For the essential matrix OpenCV's own refinement costs more than it gains: ours goes further,
 /// also from a poor sample, so that ten times the chance of one is as good.
 cv::UsacParams MagsacWithoutRefinement(const OutlierRejectionOptions& options) {
-  cv::UsacParams params = Magsac(options);
+  cv::UsacParams params = MagsacOf(options);
   params.loMethod = cv::LOCAL_OPTIM_NULL;
   params.confidence = std::max(0.9, 1.0 - 10.0 * (1.0 - options.confidence));
   return params;
@@ -75,7 +65,7 @@ bool ApplyFundamental(const Correspondences& matches, const OutlierRejectionOpti
   cv::Mat mask;
   const cv::Mat found =
       cv::findFundamentalMat(cv::Mat(size, 1, CV_64FC2, first.data()),
-                             cv::Mat(size, 1, CV_64FC2, second.data()), mask, Magsac(options));
+                             cv::Mat(size, 1, CV_64FC2, second.data()), mask, MagsacOf(options));
   if (found.rows != 3 || found.cols != 3) return false;
   const double threshold = 2.0 * options.epipolar_sigma;
   const Eigen::Matrix3d F_second_first =
