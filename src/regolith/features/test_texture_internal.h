@@ -30,7 +30,8 @@ class TestTexture {
     for (int row = 0; row < height; ++row) {
       for (int column = 0; column < width; ++column) {
         const Eigen::Vector2d place = InTexture(width, height, {column, row}, shift, turn);
-        image.data[static_cast<size_t>(row * width + column)] =
+        image.data[static_cast<size_t>(row) * static_cast<size_t>(width) +
+                   static_cast<size_t>(column)] =
             static_cast<uint8_t>(std::clamp(std::lround(At(place)), 0L, 255L));
       }
     }
@@ -45,6 +46,10 @@ class TestTexture {
   }
 
  private:
+  size_t Index(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(size_) + static_cast<size_t>(x);
+  }
+
   void AddSpot(Random* random) {
     const Eigen::Vector2d centre(random->Uniform(0.0, size_), random->Uniform(0.0, size_));
     const double radius = random->Uniform(1.5, 6.0);
@@ -56,8 +61,7 @@ class TestTexture {
            x < std::min(size_, static_cast<int>(centre.x()) + reach); ++x) {
         // Steeper than a Gaussian, so that there are edges and corners.
         const double square = (Eigen::Vector2d(x, y) - centre).squaredNorm() / (radius * radius);
-        grey_[static_cast<size_t>(y * size_ + x)] +=
-            static_cast<float>(height / (1.0 + square * square * square));
+        grey_[Index(x, y)] += static_cast<float>(height / (1.0 + square * square * square));
       }
     }
   }
@@ -68,7 +72,7 @@ class TestTexture {
     const double u = std::clamp(place.x() - x, 0.0, 1.0);
     const double v = std::clamp(place.y() - y, 0.0, 1.0);
     const auto grey = [&](int column, int row) {
-      return static_cast<double>(grey_[static_cast<size_t>(row * size_ + column)]);
+      return static_cast<double>(grey_[Index(column, row)]);
     };
     return (1.0 - v) * ((1.0 - u) * grey(x, y) + u * grey(x + 1, y)) +
            v * ((1.0 - u) * grey(x, y + 1) + u * grey(x + 1, y + 1));
