@@ -110,9 +110,11 @@ def plane_homography(first, second, inliers):
     if inliers.sum() < 10:
         return None
     homography, mask = cv2.findHomography(first[inliers], second[inliers], cv2.USAC_MAGSAC, 8.0, maxIters=1000, confidence=0.999)
-    if homography is None or mask.sum() < 10 or numpy.linalg.det(homography) <= 0:
+    if homography is None or mask.sum() < 10:
         return None
-    return homography
+    followers = first[inliers][mask[:, 0] != 0]
+    homography = homography / (followers @ homography[2, :2] + homography[2, 2]).mean()
+    return homography if numpy.linalg.det(homography) > 0 else None
 
 
 def match_pair(extract, first, second, keep, second_look=False):

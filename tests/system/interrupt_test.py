@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from program import PROGRAM, RECORDING, ProgramTest, call, read_tum
+from program import PROGRAM, ProgramTest, RECORDING, call, processor_seconds, read_tum
 
 
 def interrupt(arguments, ready, seconds=60.0):
@@ -63,10 +63,6 @@ class Interrupt(ProgramTest):
             self.assertFalse((out / "summary.json").exists())
 
     def test_an_output_that_cannot_be_written_is_refused_before_any_work(self):
-        def processor_seconds():
-            usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-            return usage.ru_utime + usage.ru_stime
-
         start = processor_seconds()
         for arguments, out in ((["run", RECORDING], "/proc/regolith"),
                                (["simulate", "--scenario", "lunar_short"], "/dev/null/x")):

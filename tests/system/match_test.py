@@ -151,6 +151,7 @@ class Results(MatchTest):
                 summary = self.summary()
                 correct[looks] = summary["correct_inliers"]
                 self.assertEqual("look_again" in summary["stages"], looks == "true")
+                self.assertEqual(summary["looked_again"], 1 if looks == "true" else 0)
             self.assertGreater(correct["true"], 2 * correct["false"], name)
             self.assertGreaterEqual(summary["precision_inliers"], 0.95)
 

@@ -5,6 +5,7 @@
 import json
 import os
 import pathlib
+import resource
 import shutil
 import subprocess
 import sys
@@ -34,6 +35,12 @@ def evaluate(reference, estimate):
         if result.returncode != 0:
             raise AssertionError(result.stderr)
         return json.loads(pathlib.Path(out, "metrics.json").read_text(encoding="utf-8"))
+
+
+def processor_seconds():
+    """Of the ended child processes and theirs, whatever runs beside the test."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
 
 
 def skip_all(reason):

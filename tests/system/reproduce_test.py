@@ -14,16 +14,10 @@ import subprocess
 import time
 import unittest
 
-from program import PROGRAM, ProgramTest, call
+from program import PROGRAM, ProgramTest, call, processor_seconds
 
 QUICK = ("--duration", "6", "--quality", "draft", "--pairs", "0", "--methods", "lio,wheels,kiss_icp",
          "--python", "/nowhere/python")  # fmt: skip
-
-
-def processor_time_of_children():
-    """Seconds, of the ended ones and theirs."""
-    times = os.times()
-    return times.children_user + times.children_system
 
 
 class Reproduce(ProgramTest):
@@ -81,11 +75,11 @@ class Reproduce(ProgramTest):
     @unittest.skipUnless(os.environ.get("REGOLITH_LONG_TESTS"), "15 minutes")
     def test_the_short_scale_ends_within_its_time(self):
         out = self.folder / "short"
-        # Of the processor: 15 minutes of both cores, whatever runs beside the test.
-        start = processor_time_of_children()
+        # 15 minutes of both cores.
+        start = processor_seconds()
         result = call("reproduce", "--scale", "short", "--out", out, timeout=2400)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertLess(processor_time_of_children() - start, 2 * 900.0)
+        self.assertLess(processor_seconds() - start, 2 * 900.0)
         with open(out / "cells.csv", encoding="utf-8") as file:
             for row in csv.DictReader(file):
                 self.assertTrue(row["ape_rmse_m"] or row["failure"], row)

@@ -179,6 +179,7 @@ Json Summary(const MatchRecord& record) {
   summary["matches"] = pair.matches.size();
   summary["inliers"] = CountInliers(pair);
   summary["rejection_model"] = pair.rejection_model;
+  summary["looked_again"] = pair.looked_again;
   if (record.truth) AddTruth(*record.truth, &summary);
   summary["repetitions"] = record.times.total.size();
   summary["total_ms"] = Median(record.times.total);

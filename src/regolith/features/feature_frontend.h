@@ -69,6 +69,7 @@ struct PairMatches {
   std::vector<FeatureMatch> matches;
   std::vector<uint8_t> inliers;  ///< one a match
   const char* rejection_model = "none";
+  int looked_again = 0;  ///< 1 or 2: the image whose keypoints are those of a second look; 0: none
   DetectionStatus first_status;
   DetectionStatus second_status;
   std::vector<StageTime> stages;

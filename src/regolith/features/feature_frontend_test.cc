@@ -349,6 +349,9 @@ TEST(MatchingFrontend, LooksAgainAtGroundThatTheWayAheadStretches) {
   EXPECT_GT(CountRight(pair, H_near_far), 2 * right_once);
   EXPECT_GT(CountRight(twice->MatchPair(nearer, farther), H_near_far.inverse()), 2 * right_once);
   EXPECT_LE(pair.first.size(), static_cast<size_t>(options.max_keypoints));
+  EXPECT_EQ(pair.looked_again, 1);
+  EXPECT_EQ(twice->MatchPair(nearer, farther).looked_again, 2);
+  EXPECT_EQ(once->MatchPair(farther, nearer).looked_again, 0);
   for (const Eigen::Vector2f& pixel : pair.first.pixels) {
     EXPECT_GE(pixel.minCoeff(), 0.0F);
     EXPECT_LT(pixel.x(), static_cast<float>(kWidth));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/calib3d.hpp>
 
 namespace regolith {
@@ -21,6 +22,15 @@ inline cv::UsacParams Magsac(double threshold, double confidence, int max_iterat
   params.loIterations = 10;
   params.threshold = threshold;
   return params;
+}
+
+/// A model that was found, 3 × 3 of doubles.
+inline Eigen::Matrix3d ToEigen(const cv::Mat& model) {
+  Eigen::Matrix3d result;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) result(row, column) = model.at<double>(row, column);
+  }
+  return result;
 }
 
 }  // namespace regolith

@@ -259,6 +259,7 @@ void MatchingFrontend::LookAgain(const Image& first, const Image& second, Corres
     return std::count(one.inliers.begin(), one.inliers.end(), uint8_t{1});
   };
   if (agreeing(again) <= agreeing(*pair)) return;
+  again.looked_again = first_is_farther ? 1 : 2;
   *pair = std::move(again);
   *bearings = std::move(again_bearings);
 }

@@ -35,14 +35,6 @@ cv::UsacParams MagsacWithoutRefinement(const OutlierRejectionOptions& options) {
   return params;
 }
 
-Eigen::Matrix3d ToEigen(const cv::Mat& matrix) {
-  Eigen::Matrix3d result;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) result(row, column) = matrix.at<double>(row, column);
-  }
-  return result;
-}
-
 std::vector<size_t> InlierRows(const std::vector<uint8_t>& inliers) {
   std::vector<size_t> rows;
   for (size_t i = 0; i < inliers.size(); ++i) {

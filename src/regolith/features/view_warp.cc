@@ -3,7 +3,6 @@
 #include "regolith/features/view_warp.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -45,12 +44,7 @@ std::optional<Eigen::Matrix3d> PlaneHomography(const std::vector<Eigen::Vector2f
   if (found.rows != 3 || found.cols != 3 || cv::countNonZero(mask) < kMinInliers) {
     return std::nullopt;
   }
-  Eigen::Matrix3d H_second_first;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      H_second_first(row, column) = found.at<double>(row, column);
-    }
-  }
+  Eigen::Matrix3d H_second_first = ToEigen(found);
   double depth = 0.0;
   for (size_t i = 0; i < from.size(); ++i) {
     if (mask.at<uint8_t>(static_cast<int>(i)) == 0) continue;
